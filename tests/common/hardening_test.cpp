@@ -1,0 +1,137 @@
+// The hardened headers against hostile counts and lengths, and the types' fingerprints.
+#include <catch2/catch.hpp>
+#include <cstring>
+#include <fstream>
+#include <sstream>
+
+#include "common/message_checks.hpp"
+
+using namespace arcstart;
+
+namespace {
+
+template <class Message>
+std::vector<std::uint8_t> encoded(const Message& message) {
+  std::vector<std::uint8_t> bytes(static_cast<std::size_t>(message.getEncodedSize()));
+  message.encode(bytes.data(), 0, static_cast<int>(bytes.size()));
+  return bytes;
+}
+
+// Puts each hostile number over every 4 bytes of a message in turn: wherever counts and string
+// lengths lie, they are hit. Decoding must end, allocate little and give -1 or a size within the
+// message.
+template <class Message>
+void attack(const Message& message) {
+  const auto good = encoded(message);
+  for (std::size_t at = 8; at + 4 <= good.size(); ++at)
+    for (const std::uint32_t hostile :
+         {0u, 0xFFFFFFFFu, 0x80000000u, 0x7FFFFFFFu, 0x40000001u, 0x3B9ACA00u}) {
+      auto bytes = good;
+      for (int i = 0; i < 4; ++i)
+        bytes[at + static_cast<std::size_t>(i)] =
+            static_cast<std::uint8_t>(hostile >> (24 - 8 * i));
+      Message decoded{};
+      const int size = decoded.decode(bytes.data(), 0, static_cast<int>(bytes.size()));
+      CHECK(size <= static_cast<int>(bytes.size()));
+    }
+}
+
+}  // namespace
+
+TEST_CASE("hostile counts and string lengths never crash a decoder") {
+  stripe_t stripe{};
+  stripe.count = 3;
+  for (auto* list : {&stripe.u, &stripe.v, &stripe.strength, &stripe.width, &stripe.deviation})
+    list->assign(3, 1.f);
+  stripe.segment.assign(3, 0);
+  stripe.rank.assign(3, 0);
+  stripe.segment_end.assign(3, 0);
+  attack(stripe);
+  profile_t profile{};
+  profile.count = 2;
+  for (auto* list :
+       {&profile.x, &profile.y, &profile.z, &profile.u, &profile.v, &profile.deviation})
+    list->assign(2, 1.f);
+  profile.segment.assign(2, 0);
+  profile.segment_end.assign(2, 0);
+  profile.calibration_id = "abc";
+  attack(profile);
+  image_t image{};
+  image.size = 5;
+  image.data.assign(5, 7);
+  attack(image);
+  robot_pose_t pose{};
+  pose.joint_count = 2;
+  pose.joints.assign(2, 0.5);
+  attack(pose);
+  calibration_t calibration{};
+  calibration.covariance_size = 2;
+  calibration.covariance.assign(2, {1, 2});
+  attack(calibration);
+  seam_t seam{};
+  seam.polyline_count = 1;
+  seam.polyline.assign(1, {1, 2, 3});
+  seam.station_count = 1;
+  seam.stations.resize(1);
+  seam.alternative_count = 2;
+  seam.alternatives.resize(2);
+  attack(seam);
+  attack(scan_t{});
+  attack(scan_command_t{});
+  attack(camera_command_t{});
+  attack(service_status_t{});
+  attack(cell_command_t{});
+  attack(truth_t{});
+}
+
+TEST_CASE("a count of -1 or beyond the packet is refused") {
+  image_t image{};
+  image.size = 4;
+  image.data.assign(4, 0);
+  auto bytes = encoded(image);
+  for (const std::int32_t hostile : {-1, 5, 0x7fffffff, 1'000'000'000}) {
+    for (int i = 0; i < 4; ++i)
+      bytes[bytes.size() - 8 + static_cast<std::size_t>(i)] =
+          static_cast<std::uint8_t>(static_cast<std::uint32_t>(hostile) >> (24 - 8 * i));
+    CHECK(image_t().decode(bytes.data(), 0, static_cast<int>(bytes.size())) == -1);
+  }
+}
+
+// LCM's hash covers neither a type's name nor its constants: both stand in fingerprints.txt, beside
+// the hash.
+TEST_CASE("types have the fingerprints that recordings rely on") {
+  std::ostringstream now;
+  const auto line = [&](auto message, const std::string& constants) {
+    now << decltype(message)::getTypeName() << ' ' << std::hex
+        << static_cast<std::uint64_t>(decltype(message)::getHash()) << std::dec << constants
+        << '\n';
+  };
+#define VALUE(type, name) " " #name "=" + std::to_string(static_cast<long>(type::name))
+  line(calibration_t{}, VALUE(calibration_t, PARAMETERS));
+  line(camera_command_t{}, VALUE(camera_command_t, LASER_OFF) + VALUE(camera_command_t, LASER_ON) +
+                               VALUE(camera_command_t, LASER_AS_CONFIGURED));
+  line(cell_command_t{}, VALUE(cell_command_t, KEEP) + VALUE(cell_command_t, BACKGROUND) +
+                             VALUE(cell_command_t, WORKPIECE));
+  line(image_t{}, VALUE(image_t, MONO8) + VALUE(image_t, PNG));
+  line(profile_t{}, VALUE(profile_t, INSIDE) + VALUE(profile_t, SEGMENT_END));
+  line(robot_pose_t{}, "");
+  line(scan_command_t{}, VALUE(scan_command_t, START) + VALUE(scan_command_t, STOP));
+  line(scan_t{}, VALUE(scan_t, IDLE) + VALUE(scan_t, SCANNING) + VALUE(scan_t, ENDED) +
+                     VALUE(scan_t, BACKGROUND) + VALUE(scan_t, WORKPIECE));
+  line(seam_alternative_t{}, "");
+  line(seam_station_t{}, "");
+  line(seam_t{}, VALUE(seam_t, FOUND) + VALUE(seam_t, AMBIGUOUS) + VALUE(seam_t, REFUSED) +
+                     VALUE(seam_t, BACKGROUND_STORED) + VALUE(seam_t, NOT_DETERMINED) +
+                     VALUE(seam_t, SEEN) + VALUE(seam_t, HIDDEN) + VALUE(seam_t, OUTSIDE));
+  line(service_status_t{}, VALUE(service_status_t, STARTING) + VALUE(service_status_t, RUNNING) +
+                               VALUE(service_status_t, DEGRADED) + VALUE(service_status_t, FAULT) +
+                               VALUE(service_status_t, STOPPING));
+  line(stripe_t{}, VALUE(stripe_t, CONTINUES) + VALUE(stripe_t, EDGE) + VALUE(stripe_t, GAP) +
+                       VALUE(stripe_t, BORDER) + VALUE(stripe_t, SATURATION) +
+                       VALUE(stripe_t, CHOSEN) + VALUE(stripe_t, SECOND_CANDIDATE));
+  line(truth_t{}, "");
+  std::ifstream file(ARCSTART_FINGERPRINTS);
+  std::ostringstream held;
+  held << file.rdbuf();
+  CHECK(now.str() == held.str());
+}
