@@ -17,9 +17,9 @@ namespace {
 
 // Event header, all big-endian: sync word u32, event number i64, timestamp i64 us, channel length
 // i32, data length i32.
-constexpr std::uint32_t sync_word = 0xEDA1DA01;
-constexpr std::size_t header_size = 28;
-constexpr std::size_t longest_channel = 63;  // LCM_MAX_CHANNEL_NAME_LENGTH
+constexpr std::uint32_t kSyncWord = 0xEDA1DA01;
+constexpr std::size_t kHeaderSize = 28;
+constexpr std::size_t kLongestChannel = 63;  // LCM_MAX_CHANNEL_NAME_LENGTH
 
 std::uint64_t big_endian(const std::uint8_t* bytes, int count) {
   std::uint64_t value = 0;
@@ -50,7 +50,7 @@ std::string system_reason() { return std::strerror(errno); }
 
 EventWalk walk_event_log(std::uint64_t size, const ReadAt& read_at) {
   EventWalk walk;
-  std::array<std::uint8_t, header_size + longest_channel> head;
+  std::array<std::uint8_t, kHeaderSize + kLongestChannel> head;
   std::uint64_t at = 0;
   const auto ends_with = [&](const std::string& why) {
     walk.damage = fmt::format("event {} at byte {}: {}", walk.entries.size(), at, why);
@@ -61,30 +61,30 @@ EventWalk walk_event_log(std::uint64_t size, const ReadAt& read_at) {
     // Header and channel name in one reading: the name is longer than that only in a damaged file.
     const auto head_bytes = std::min<std::uint64_t>(left, head.size());
     if (!read_at(at, std::span(head).first(head_bytes))) return ends_with("cannot be read");
-    if (head_bytes >= 4 && big_endian(head.data(), 4) != sync_word)
+    if (head_bytes >= 4 && big_endian(head.data(), 4) != kSyncWord)
       return ends_with("does not begin with LCM's mark");
-    if (left < header_size) return ends_with("cut off in its header");
+    if (left < kHeaderSize) return ends_with("cut off in its header");
 
     const auto timestamp = static_cast<std::int64_t>(big_endian(&head[12], 8));
     const auto channel_length = static_cast<std::int32_t>(big_endian(&head[20], 4));
     const auto data_length = static_cast<std::int32_t>(big_endian(&head[24], 4));
-    if (channel_length < 1 || channel_length > static_cast<std::int32_t>(longest_channel))
+    if (channel_length < 1 || channel_length > static_cast<std::int32_t>(kLongestChannel))
       return ends_with(fmt::format("channel name of {} bytes, 1 to {} are possible", channel_length,
-                                   longest_channel));
+                                   kLongestChannel));
     if (data_length < 0) return ends_with(fmt::format("data of {} bytes", data_length));
     const auto name_length = static_cast<std::uint32_t>(channel_length);
     const auto data_size = static_cast<std::uint32_t>(data_length);
-    if (left < header_size + name_length) return ends_with("cut off in its channel name");
-    if (left - header_size - name_length < data_size)
+    if (left < kHeaderSize + name_length) return ends_with("cut off in its channel name");
+    if (left - kHeaderSize - name_length < data_size)
       return ends_with(fmt::format("cut off: {} bytes of data announced, {} there", data_size,
-                                   left - header_size - name_length));
-    const auto* name = &head[header_size];
+                                   left - kHeaderSize - name_length));
+    const auto* name = &head[kHeaderSize];
     if (std::find(name, name + name_length, 0) != name + name_length)
       return ends_with("channel name with a NUL in it");
 
     walk.entries.push_back({timestamp, std::string(name, name + name_length),
-                            at + header_size + name_length, data_size});
-    at += header_size + name_length + data_size;
+                            at + kHeaderSize + name_length, data_size});
+    at += kHeaderSize + name_length + data_size;
   }
   return walk;
 }
@@ -124,8 +124,8 @@ EventLog::EventLog(const std::string& path) : path_(path) {
   damage_ = std::move(walk.damage);
 }
 
-std::vector<std::uint8_t> EventLog::read(const EventEntry& entry) const {
-  std::vector<std::uint8_t> bytes(entry.size);
+std::vector<std::uint8_t> EventLog::read(const EventEntry& entry, std::size_t at_most) const {
+  std::vector<std::uint8_t> bytes(std::min<std::size_t>(entry.size, at_most));
   if (!read_fully(*file_, entry.offset, bytes))
     throw EventLogError(fmt::format("{}: {} bytes at byte {} cannot be read any more", path_,
                                     entry.size, entry.offset));
@@ -144,16 +144,16 @@ EventLogWriter::~EventLogWriter() {
 void EventLogWriter::write(std::int64_t timestamp, const std::string& channel,
                            const std::vector<std::uint8_t>& bytes) {
   if (!file_) throw EventLogError(fmt::format("{}: is closed already", path_));
-  if (channel.empty() || channel.size() > longest_channel ||
+  if (channel.empty() || channel.size() > kLongestChannel ||
       channel.find('\0') != std::string::npos)
     throw EventLogError(fmt::format("{}: '{}' is no channel name, 1 to {} characters are", path_,
-                                    channel, longest_channel));
+                                    channel, kLongestChannel));
   if (bytes.size() > static_cast<std::size_t>(std::numeric_limits<std::int32_t>::max()))
     throw EventLogError(fmt::format("{}: a message of {} bytes is too long", path_, bytes.size()));
 
-  std::array<std::uint8_t, header_size> header;
+  std::array<std::uint8_t, kHeaderSize> header;
   std::uint8_t* at = header.data();
-  append_big_endian(sync_word, 4, at);
+  append_big_endian(kSyncWord, 4, at);
   append_big_endian(static_cast<std::uint64_t>(number_), 8, at);
   append_big_endian(static_cast<std::uint64_t>(timestamp), 8, at);
   append_big_endian(channel.size(), 4, at);

@@ -47,8 +47,10 @@ class EventLog {
   explicit EventLog(const std::string& path);
 
   const std::vector<EventEntry>& entries() const { return entries_; }
-  // Throws EventLogError where the file has shrunk or cannot be read any more.
-  std::vector<std::uint8_t> read(const EventEntry& entry) const;
+  // An event's data, or its first bytes alone. Throws EventLogError where the file has shrunk or
+  // cannot be read any more.
+  std::vector<std::uint8_t> read(const EventEntry& entry) const { return read(entry, entry.size); }
+  std::vector<std::uint8_t> read(const EventEntry& entry, std::size_t at_most) const;
   const std::string& path() const { return path_; }
   const std::string& damage() const { return damage_; }  // one line, empty for a sound file
 
