@@ -16,6 +16,9 @@ bool all_finite(const List& values) {
   return true;
 }
 
+// Before the year 10000: a stamp to which any setting in seconds can be added.
+bool is_time(std::int64_t utime) { return utime > 0 && utime < 253'402'300'800'000'000; }
+
 bool is_length(double value) { return std::isfinite(value) && std::abs(value) <= kLongest; }
 
 template <class List>
@@ -48,8 +51,8 @@ template <class Message>
 Checks check_source(const Message& message) {
   Checks checks;
   checks
-      .require(message.utime > 0 && message.run_id > 0 && message.seq >= 0,
-               "utime, run_id or seq below 0")
+      .require(is_time(message.utime) && is_time(message.run_id) && message.seq >= 0,
+               "utime or run_id is no time, or seq below 0")
       .require(message.scan_id >= 0 && message.scan_index >= -1, "scan_id or scan_index below 0");
   return checks;
 }
@@ -77,7 +80,9 @@ std::string meaning_error(const image_t& m) {
 
 std::string meaning_error(const robot_pose_t& m) {
   Checks checks;
-  checks.require(m.utime > 0 && m.run_id > 0 && m.seq >= 0, "utime, run_id or seq below 0")
+  checks
+      .require(is_time(m.utime) && is_time(m.run_id) && m.seq >= 0,
+               "utime or run_id is no time, or seq below 0")
       .require(are_lengths(m.position), "position not finite")
       .require(all_finite(m.joints), "joints not finite")
       .require(std::isfinite(m.device_tick_us), "tick not finite")
