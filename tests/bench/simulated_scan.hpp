@@ -1,0 +1,50 @@
+// Scans of the simulated cell without devices and without waiting: rendered images, positions,
+// calibration and scan states, put on a memq bus in order of time as sensor_capture, robot_pose and
+// calibration would.
+#pragma once
+
+#include <arcstart/truth_t.hpp>
+#include <cstdint>
+
+#include "common/bus.hpp"
+#include "services/cell_simulator/image_renderer.hpp"
+#include "services/cell_simulator/scene.hpp"
+
+namespace arcstart {
+
+struct SimulatedScanSettings {
+  SceneSettings scene;
+  SensorSettings sensor;
+  double speed_mm_s = 50;
+  double frames_per_second = 14;
+  double positions_per_second = 50;
+  double position_noise_mm = 0.02;
+  double image_delay_s = 0.02732;  // images are stamped so much late
+};
+
+class SimulatedScan {
+ public:
+  // The bus must outlive this. The seed makes the scene, the trigger's phase and all noise.
+  SimulatedScan(Bus& bus, const SimulatedScanSettings& settings, std::uint64_t seed);
+
+  // One whole scan from its start command to its end; what the pipeline says is handled on the way.
+  void run(SceneKind kind);
+  truth_t truth() const;
+
+ private:
+  void publish_calibration();
+  void publish_scan(std::int8_t state, SceneKind kind, std::int64_t now, int images);
+  void publish_pose(const RigidTransform& T_base_tool, std::int64_t utime);
+  void publish_image(const Scene& scene, const RigidTransform& T_base_tool, std::int64_t middle,
+                     int index);
+
+  Bus& bus_;
+  SimulatedScanSettings settings_;
+  std::uint64_t seed_;
+  ImageRenderer renderer_;
+  std::int64_t clock_ = 1'700'000'000'000'000;  // us, UTC
+  std::int64_t scan_id_ = 0, image_seq_ = 0, pose_seq_ = 0, first_seq_ = 0;
+  std::vector<std::uint8_t> grey_;
+};
+
+}  // namespace arcstart
