@@ -1,0 +1,44 @@
+#pragma once
+
+#include <arcstart/calibration_t.hpp>
+#include <cstdint>
+#include <filesystem>
+#include <optional>
+#include <string>
+
+#include "common/bus.hpp"
+#include "common/service.hpp"
+#include "services/calibration/calibration_settings.hpp"
+
+namespace arcstart {
+
+// Gives <SENSOR>_CALIBRATION once a second, byte for byte the same, and at once when its file has
+// changed. Without a usable file it waits for one.
+class CalibrationApp : public App {
+ public:
+  // The bus outlives the app.
+  CalibrationApp(Bus& bus, const CalibrationSettings& settings, const Instance& instance);
+
+  void tick(std::int64_t now_utime) override;
+  Health health() const override;
+
+ private:
+  // What tells that a file is another, without reading it.
+  struct FileStamp {
+    std::filesystem::file_time_type changed{};
+    std::uintmax_t size = 0;
+    bool operator==(const FileStamp&) const = default;
+  };
+
+  void look_at_file();
+
+  Bus& bus_;
+  CalibrationSettings settings_;
+  Instance instance_;
+  std::int64_t last_look_ = 0, last_sent_ = 0;  // us, UTC
+  std::optional<FileStamp> taken_;              // of the file that was read last and was good
+  std::optional<calibration_t> message_;        // the calibration in force
+  std::string file_error_;                      // why the file cannot be used now
+};
+
+}  // namespace arcstart

@@ -1,0 +1,12 @@
+// arcstart-calibration: the cell's calibration, published for all.
+#include "services/calibration/calibration_app.hpp"
+
+int main(int argc, char** argv) {
+  using namespace arcstart;
+  return run_service(
+      argc, argv, {"calibration", "reads the cell's calibration file and publishes it"},
+      [](ServiceContext& context) -> std::unique_ptr<App> {
+        const auto settings = context.settings<CalibrationSettings>("calibration");
+        return std::make_unique<CalibrationApp>(context.bus, settings, context.instance);
+      });
+}

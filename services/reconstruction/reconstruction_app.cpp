@@ -1,0 +1,173 @@
+#include "services/reconstruction/reconstruction_app.hpp"
+
+#include <fmt/format.h>
+#include <spdlog/spdlog.h>
+
+#include <algorithm>
+#include <memory>
+#include <utility>
+
+#include "common/calibration_message.hpp"
+#include "common/time.hpp"
+
+namespace arcstart {
+namespace {
+
+// The chosen centres alone; second candidates are for those who weigh them.
+Stripe from_message(const stripe_t& message) {
+  Stripe stripe;
+  stripe.source = {message.utime, message.run_id, message.seq, message.scan_id, message.scan_index};
+  stripe.sensor_width = message.sensor_width;
+  stripe.sensor_height = message.sensor_height;
+  stripe.empty = message.empty;
+  if (!stripe.empty.empty()) return stripe;
+  stripe.centres.reserve(message.u.size());
+  for (std::size_t i = 0; i < message.u.size(); ++i)
+    if (message.rank[i] == stripe_t::CHOSEN)
+      stripe.centres.push_back(
+          {message.u[i], message.v[i], message.deviation[i], message.segment[i]});
+  if (stripe.centres.empty()) stripe.empty = "no centre chosen";
+  return stripe;
+}
+
+profile_t to_message(const Profile& profile) {
+  profile_t message{};
+  message.utime = profile.source.utime;
+  message.run_id = profile.source.run_id;
+  message.seq = profile.source.seq;
+  message.scan_id = profile.source.scan_id;
+  message.scan_index = profile.source.scan_index;
+  message.count = static_cast<std::int32_t>(profile.points.size());
+  for (const ProfilePoint& point : profile.points) {
+    message.x.push_back(static_cast<float>(point.position.x()));
+    message.y.push_back(static_cast<float>(point.position.y()));
+    message.z.push_back(static_cast<float>(point.position.z()));
+    message.u.push_back(point.centre.u);
+    message.v.push_back(point.centre.v);
+    message.deviation.push_back(static_cast<float>(point.deviation));
+    message.segment.push_back(point.centre.segment);
+    message.segment_end.push_back(point.centre.segment_end ? profile_t::SEGMENT_END
+                                                           : profile_t::INSIDE);
+  }
+  transform_to_arrays(profile.T_base_tool, message.tool_position, message.tool_quaternion);
+  Eigen::Map<Eigen::Vector3d>{message.camera_centre} = profile.camera_centre;
+  message.calibration_id = profile.calibration_id;
+  message.empty = profile.empty;
+  return message;
+}
+
+std::vector<std::uint8_t> encoded(const calibration_t& message) {
+  std::vector<std::uint8_t> bytes(static_cast<std::size_t>(message.getEncodedSize()));
+  message.encode(bytes.data(), 0, static_cast<int>(bytes.size()));
+  return bytes;
+}
+
+}  // namespace
+
+ReconstructionApp::ReconstructionApp(Bus& bus, const ReconstructionSettings& settings,
+                                     const Instance& instance)
+    : bus_(bus), settings_(settings), instance_(instance), reconstruction_(settings) {
+  bus.subscribe<stripe_t>(instance.sensor_channel("STRIPE"), Queue::measurements(),
+                          [this](const stripe_t& message) { take_stripe(message); });
+  bus.subscribe<robot_pose_t>(instance.robot_channel("POSE"), Queue::measurements(),
+                              [this](const robot_pose_t& message) { take_position(message); });
+  // Every one in its place among the stripes, not the newest alone: which stripes it holds for
+  // hangs on that.
+  bus.subscribe<calibration_t>(instance.sensor_channel("CALIBRATION"), Queue::measurements(),
+                               [this](const calibration_t& message) { take_calibration(message); });
+}
+
+void ReconstructionApp::take_stripe(const stripe_t& message) {
+  if (message.scan_id != 0) lost_ += stripes_.missing_before(message.scan_id, message.scan_index);
+  arrivals_.push_back(steady_now());
+  reconstruction_.take_stripe(from_message(message));
+  publish_profiles();
+}
+
+void ReconstructionApp::take_position(const robot_pose_t& message) {
+  lost_ += positions_.missing_before(message.run_id, message.seq);
+  const TrajectoryQueue& trajectory = reconstruction_.trajectory();
+  const auto dropped = [&] { return trajectory.dropped_going_back() + trajectory.dropped_jumps(); };
+  const std::int64_t dropped_before = dropped();
+  position_error_ = message.invalid;
+  if (message.invalid.empty()) {
+    reconstruction_.take_position(message.utime,
+                                  transform_from_arrays(message.position, message.quaternion));
+    if (dropped() != dropped_before) position_error_ = "its stamp jumps or goes back";
+  } else {
+    ++invalid_positions_;
+  }
+  publish_profiles();
+}
+
+void ReconstructionApp::take_calibration(const calibration_t& message) try {
+  auto calibration = std::make_shared<const Calibration>(calibration_from_message(message));
+  if (const auto error = instance_error(*calibration, instance_.sensor, instance_.robot);
+      !error.empty())
+    throw CalibrationError(error);
+  const std::vector<std::uint8_t> bytes = encoded(to_message(*calibration));
+  const auto& known = reconstruction_.calibration();
+  if (known && known->id == calibration->id && bytes != calibration_bytes_)
+    throw CalibrationError("it has the id of the one in force, but other numbers");
+  calibration_refused_.clear();
+  if (bytes == calibration_bytes_) return;
+  calibration_bytes_ = bytes;
+  spdlog::info("calibration {} of {}, made by: {}", calibration->id, calibration->sensor,
+               calibration->origin);
+  reconstruction_.take_calibration(std::move(calibration));
+  publish_profiles();
+} catch (const CalibrationError& error) {
+  calibration_refused_ =
+      fmt::format("{}: calibration {} refused: {}: see arcstart-calibration's file",
+                  instance_.sensor_channel("CALIBRATION"), message.id, error.what());
+}
+
+void ReconstructionApp::publish_profiles() {
+  while (const auto profile = reconstruction_.next()) {
+    arrivals_.pop_front();
+    bus_.publish(instance_.sensor_channel("PROFILE"), to_message(*profile));
+    if (profile->empty.empty())
+      last_empty_.clear();
+    else if (!profile->empty.starts_with("stripe empty"))
+      last_empty_ =
+          fmt::format("{}: stripe {} gave no points: {}", instance_.sensor_channel("PROFILE"),
+                      profile->source.seq, profile->empty);
+  }
+}
+
+Health ReconstructionApp::health() const {
+  Health health;
+  const TrajectoryQueue& trajectory = reconstruction_.trajectory();
+  health.lost =
+      lost_ + invalid_positions_ + trajectory.dropped_going_back() + trajectory.dropped_jumps();
+  health.oldest_age = arrivals_.empty() ? 0 : steady_now() - arrivals_.front();
+  if (!calibration_refused_.empty())
+    health.last_error = calibration_refused_;
+  else if (health.oldest_age > seconds_to_us(settings_.silence_warning_s))
+    health.last_error =
+        reconstruction_.calibration()
+            ? fmt::format("stripes wait for positions on {}: is arcstart-robot-pose running?",
+                          instance_.robot_channel("POSE"))
+            : fmt::format("stripes wait for {}: is arcstart-calibration running?",
+                          instance_.sensor_channel("CALIBRATION"));
+  else if (!position_error_.empty())
+    health.last_error = fmt::format("{}: a position was dropped: {}",
+                                    instance_.robot_channel("POSE"), position_error_);
+  else if (!last_empty_.empty())
+    health.last_error = last_empty_;
+  if (!health.last_error.empty()) health.state = service_status_t::DEGRADED;
+  return health;
+}
+
+// Groups are scans, or runs: a new one begins anew.
+std::int64_t ReconstructionApp::Numbering::missing_before(std::int64_t new_group,
+                                                          std::int64_t number) {
+  constexpr std::int64_t kMost = 1'000'000;  // a wild number must not drown the true ones
+  const bool follows = new_group == group && last >= 0 && number > last;
+  const std::int64_t missing = follows ? std::min(number - last - 1, kMost) : 0;
+  group = new_group;
+  last = number;
+  return missing;
+}
+
+}  // namespace arcstart

@@ -1,0 +1,35 @@
+#pragma once
+
+#include "common/configuration.hpp"
+
+namespace arcstart {
+
+// Section `reconstruction` of cell.yaml.
+struct ReconstructionSettings {
+  int keep_every =
+      15;  // M: of each segment the centres 0, M, 2M ... and the last are kept; 1 keeps all
+  double keep_positions_s = 10;  // how long positions are kept for stripes that come late
+  double largest_gap_ms =
+      100;  // between the two positions around a stripe; above it the profile is empty
+  double wait_for_calibration_s =
+      3;  // how far positions may run ahead of a stripe before a calibration is known
+  int waiting_stripes = 1000;  // most that wait for a position; above it the oldest is given up
+  double nearest_mm = 50;      // working range of the sensor: depth along the optical axis,
+  double farthest_mm = 1000;   // points outside are dropped
+  double silence_warning_s =
+      2;  // a stripe that waits longer than this is told in STATUS; changes no result
+
+  template <class Visitor>
+  void visit(Visitor& visitor) {
+    visitor("keep_every", keep_every, between(1, 10000));
+    visitor("keep_positions_s", keep_positions_s, between(0.5, 60));
+    visitor("largest_gap_ms", largest_gap_ms, between(1, 1000));
+    visitor("wait_for_calibration_s", wait_for_calibration_s, between(0, 30));
+    visitor("waiting_stripes", waiting_stripes, between(1, 100000));
+    visitor("nearest_mm", nearest_mm, between(1, 100000));
+    visitor("farthest_mm", farthest_mm, between(1, 100000));
+    visitor("silence_warning_s", silence_warning_s, between(0.1, 3600));
+  }
+};
+
+}  // namespace arcstart

@@ -1,0 +1,50 @@
+// What the stages of reconstruction hand to each other.
+#pragma once
+
+#include <cstdint>
+#include <string>
+#include <vector>
+
+#include "common/geometry.hpp"
+
+namespace arcstart {
+
+// Which image a stripe, and then its profile, comes from.
+struct StripeSource {
+  std::int64_t utime = 0;  // middle of the exposure; us
+  std::int64_t run_id = 0;
+  std::int64_t seq = 0;
+  std::int64_t scan_id = 0;  // 0 outside a scan
+  std::int32_t scan_index = -1;
+};
+
+struct StripeCentre {
+  float u = 0, v = 0;        // distorted, as seen; px
+  float deviation = 0;       // across the stripe; px, 0 where not measured
+  std::int16_t segment = 0;  // centres of a segment are contiguous
+  bool segment_end = false;  // its segment's first or last
+};
+
+struct Stripe {
+  StripeSource source;
+  int sensor_width = 0, sensor_height = 0;  // px
+  std::vector<StripeCentre> centres;        // the chosen ones
+  std::string empty;                        // why there are none
+};
+
+struct ProfilePoint {
+  Eigen::Vector3d position;  // in base; mm
+  StripeCentre centre;       // that it comes from
+  double deviation = 0;      // standard deviation across the stripe; mm, 0 where not measured
+};
+
+struct Profile {
+  StripeSource source;
+  std::vector<ProfilePoint> points;
+  RigidTransform T_base_tool = RigidTransform::Identity();  // at utime + time_offset
+  Eigen::Vector3d camera_centre = Eigen::Vector3d::Zero();  // in base; mm
+  std::string calibration_id;                               // empty for none
+  std::string empty;                                        // why there are no points
+};
+
+}  // namespace arcstart
