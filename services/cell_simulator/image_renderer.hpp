@@ -64,6 +64,7 @@ class ImageRenderer {
 
   SensorSettings settings_;
   TrueSensor sensor_;
+  double full_light_distance_;  // from the projector to where stripe_grey holds; mm
   std::unique_ptr<Buffers> buffers_;
 };
 

@@ -21,13 +21,13 @@ struct LightSheet {
 struct LitLine {
   Eigen::Vector3d begin, end;  // mm
   Eigen::Vector3d sheet_normal;
-  Eigen::Vector3d source;  // the light's, mirrored for a ghost
+  Eigen::Vector3d source;  // of the light, mirrored for a ghost
   int triangle;
   double
-      share;  // of the sheet's light that comes here: 1, for a ghost what the first surface mirrors
-  double
-      spread_rad;  // sigma of the angle by which a glossy surface has widened the sheet; 0 for none
-  Eigen::Vector3d mirror;  // point of the surface that mirrored the light, where there is a spread
+      share;  // of the sheet's light that comes here; of a ghost's what the first surface mirrors
+  // Sigma by which a glossy surface has widened the sheet where it meets the line's ends; mm, 0 for
+  // a direct line.
+  double spread_begin, spread_end;
   bool ghost;
 };
 

@@ -38,7 +38,7 @@ struct SceneSettings {
   bool box_on_base = false;      // small, on the base plate's open side
 
   double plate_albedo = 0.45;          // share of the light sent back diffusely
-  double plate_specular_share = 0.25;  // share mirrored; makes the ghost stripes, 0 for none
+  double plate_specular_share = 0.35;  // share mirrored; makes the ghost stripes, 0 for none
   double table_albedo = 0.35;
 
   // STL files that stand with the work, mm; relative to the working folder.

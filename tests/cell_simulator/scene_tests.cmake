@@ -1,0 +1,3 @@
+add_executable(render_scene render_scene.cpp)
+target_link_libraries(render_scene PRIVATE arcstart::cell_scene opencv_core opencv_imgcodecs opencv_imgproc arcstart_warnings)
+set_target_properties(render_scene PROPERTIES RUNTIME_OUTPUT_DIRECTORY ${PROJECT_BINARY_DIR}/tests/bin)
