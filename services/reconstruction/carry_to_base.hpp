@@ -15,7 +15,7 @@ struct WorkingRange {
 
 // p_base = T_base_tool * T_tool_camera * p_camera for each centre. Dropped are centres whose ray
 // does not meet the laser plane in front of the camera, and points outside the range.
-std::vector<ProfilePoint> carry_to_base(const std::vector<StripeCentre>& centres,
+std::vector<ProfilePoint> carry_to_base(const std::vector<ReceivedCentre>& centres,
                                         const Calibration& calibration,
                                         const RigidTransform& T_base_tool,
                                         const WorkingRange& range);

@@ -2,8 +2,9 @@
 
 namespace arcstart {
 
-std::vector<StripeCentre> down_sample(const std::vector<StripeCentre>& centres, int keep_every) {
-  std::vector<StripeCentre> kept;
+std::vector<ReceivedCentre> down_sample(const std::vector<ReceivedCentre>& centres,
+                                        int keep_every) {
+  std::vector<ReceivedCentre> kept;
   kept.reserve(centres.size() / static_cast<std::size_t>(keep_every) + 2);
   int number = 0;  // of the centre in its segment
   for (std::size_t i = 0; i < centres.size(); ++i, ++number) {

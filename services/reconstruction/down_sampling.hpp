@@ -10,6 +10,6 @@ namespace arcstart {
 // Of each segment the centres 0, M, 2M ... and the last, in their order; its first and last are
 // marked as its ends. A plate's edge is seen at a segment's end: kept, it costs the seam no
 // accuracy whatever M is.
-std::vector<StripeCentre> down_sample(const std::vector<StripeCentre>& centres, int keep_every);
+std::vector<ReceivedCentre> down_sample(const std::vector<ReceivedCentre>& centres, int keep_every);
 
 }  // namespace arcstart

@@ -8,7 +8,7 @@
 
 namespace arcstart {
 
-void PendingStripes::add(Stripe stripe, const TrajectoryQueue& trajectory,
+void PendingStripes::add(ReceivedStripe stripe, const TrajectoryQueue& trajectory,
                          ScanCalibration& calibrations) {
   // A stamp far ahead of the positions, and of the stripe that follows, is wrong: no position would
   // ever end its wait, and it would hold up all behind it.

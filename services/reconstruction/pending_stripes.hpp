@@ -14,7 +14,7 @@ namespace arcstart {
 
 // A stripe, its calibration and its position; or why it is to be an empty profile.
 struct DecidedStripe {
-  Stripe stripe;
+  ReceivedStripe stripe;
   std::shared_ptr<const Calibration> calibration;
   std::optional<RigidTransform> T_base_tool;
   std::string empty;
@@ -30,7 +30,7 @@ class PendingStripes {
   PendingStripes(std::int64_t calibration_wait, std::size_t most)
       : calibration_wait_(calibration_wait), most_(most) {}
 
-  void add(Stripe stripe, const TrajectoryQueue& trajectory, ScanCalibration& calibrations);
+  void add(ReceivedStripe stripe, const TrajectoryQueue& trajectory, ScanCalibration& calibrations);
 
   // Decides what can be decided. To be called after every message.
   void decide(const TrajectoryQueue& trajectory, ScanCalibration& calibrations);

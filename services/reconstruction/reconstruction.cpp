@@ -25,7 +25,7 @@ void Reconstruction::take_calibration(std::shared_ptr<const Calibration> calibra
   pending_.decide(trajectory_, calibrations_);
 }
 
-void Reconstruction::take_stripe(Stripe stripe) {
+void Reconstruction::take_stripe(ReceivedStripe stripe) {
   stripe.centres = down_sample(stripe.centres, settings_.keep_every);
   pending_.add(std::move(stripe), trajectory_, calibrations_);
   pending_.decide(trajectory_, calibrations_);

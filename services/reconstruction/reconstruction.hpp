@@ -19,7 +19,7 @@ class Reconstruction {
 
   void take_position(std::int64_t utime, const RigidTransform& T_base_tool);
   void take_calibration(std::shared_ptr<const Calibration> calibration);
-  void take_stripe(Stripe stripe);
+  void take_stripe(ReceivedStripe stripe);
 
   // The next profile, in the order of the stripes; nothing while its stripe waits. Take all after
   // every message.

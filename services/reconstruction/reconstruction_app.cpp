@@ -14,8 +14,8 @@ namespace arcstart {
 namespace {
 
 // The chosen centres alone; second candidates are for those who weigh them.
-Stripe from_message(const stripe_t& message) {
-  Stripe stripe;
+ReceivedStripe from_message(const stripe_t& message) {
+  ReceivedStripe stripe;
   stripe.source = {message.utime, message.run_id, message.seq, message.scan_id, message.scan_index};
   stripe.sensor_width = message.sensor_width;
   stripe.sensor_height = message.sensor_height;

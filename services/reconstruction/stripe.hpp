@@ -18,23 +18,24 @@ struct StripeSource {
   std::int32_t scan_index = -1;
 };
 
-struct StripeCentre {
+// As received from extraction, whose own Stripe is another: one program may hold both.
+struct ReceivedCentre {
   float u = 0, v = 0;        // distorted, as seen; px
   float deviation = 0;       // across the stripe; px, 0 where not measured
   std::int16_t segment = 0;  // centres of a segment are contiguous
   bool segment_end = false;  // its segment's first or last
 };
 
-struct Stripe {
+struct ReceivedStripe {
   StripeSource source;
   int sensor_width = 0, sensor_height = 0;  // px
-  std::vector<StripeCentre> centres;        // the chosen ones
+  std::vector<ReceivedCentre> centres;      // the chosen ones
   std::string empty;                        // why there are none
 };
 
 struct ProfilePoint {
   Eigen::Vector3d position;  // in base; mm
-  StripeCentre centre;       // that it comes from
+  ReceivedCentre centre;     // that it comes from
   double deviation = 0;      // standard deviation across the stripe; mm, 0 where not measured
 };
 
