@@ -1,0 +1,34 @@
+// arcstart: what a person types. A subcommand a job.
+#include <CLI/CLI.hpp>
+#include <iostream>
+
+#include "common/bus.hpp"
+#include "common/configuration.hpp"
+#include "services/command_line/monitor_command.hpp"
+#include "services/command_line/scan_command.hpp"
+
+int main(int argc, char** argv) {
+  using namespace arcstart;
+  CLI::App program("arcstart: finds where a welding robot is to strike the arc");
+  program.set_version_flag("--version", ARCSTART_VERSION);
+  program.require_subcommand(1);
+  program.footer("arcstart COMMAND --help tells all of a command.");
+  int exit_code = 0;
+  add_scan_command(program, exit_code);
+  add_monitor_command(program, exit_code);
+  try {
+    program.parse(argc, argv);
+    return exit_code;
+  } catch (const CLI::ParseError& error) {
+    return program.exit(error) == 0 ? 0 : 2;
+  } catch (const ConfigurationError& error) {
+    std::cerr << "arcstart: " << error.what() << "\n";
+    return 2;
+  } catch (const BusError& error) {
+    std::cerr << "arcstart: " << error.what() << "\n";
+    return 2;
+  } catch (const std::exception& error) {
+    std::cerr << "arcstart: " << error.what() << "\n";
+    return 1;
+  }
+}
