@@ -73,10 +73,10 @@ service_status_t make_status(const ServiceContext& context, const ServiceDescrip
   status.last_error = health.last_error;
   if (status.last_error.empty()) status.last_error = bus.last_error();
   if (status.last_error.empty()) status.last_error = bus.buffer_warning();
-  status.received = bus.received();
+  status.received = bus.received() + health.received;
   status.sent = bus.sent();
   status.lost = health.lost + bus.overflowed();
-  status.undecodable = bus.undecodable();
+  status.undecodable = bus.undecodable() + health.undecodable;
   if (status.state == service_status_t::RUNNING &&
       (status.lost > 0 || !bus.buffer_warning().empty()))
     status.state = service_status_t::DEGRADED;

@@ -24,9 +24,11 @@ struct Instance {
 // How the service fares, as its app sees it. The shell adds what the bus knows.
 struct Health {
   std::int8_t state = service_status_t::RUNNING;
-  std::string last_error;       // what, where and what to do; empty for nothing
-  std::int64_t lost = 0;        // inputs that should have come and did not
-  std::int64_t oldest_age = 0;  // of an input that still waits; us
+  std::string last_error;        // what, where and what to do; empty for nothing
+  std::int64_t lost = 0;         // inputs that should have come and did not
+  std::int64_t oldest_age = 0;   // of an input that still waits; us
+  std::int64_t received = 0;     // inputs from a device, beside the bus's messages
+  std::int64_t undecodable = 0;  // of those, dropped as malformed, strange or out of order
 };
 
 // What a service subscribes to, publishes and counts. No mathematics.
