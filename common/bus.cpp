@@ -58,15 +58,18 @@ struct Bus::Transport {
 
 Bus::Bus() = default;
 
-Bus::Bus(const BusSettings& settings) {
-  const auto url = [&](int port) {
-    return fmt::format("udpm://{}:{}?ttl={}&recv_buf_size={}", settings.group, port, settings.ttl,
-                       settings.receive_buffer_bytes);
+std::vector<std::string> BusSettings::urls() const {
+  const auto url = [this](int of_port) {
+    return fmt::format("udpm://{}:{}?ttl={}&recv_buf_size={}", group, of_port, ttl,
+                       receive_buffer_bytes);
   };
+  if (image_port == 0 || image_port == port) return {url(port)};
+  return {url(port), url(image_port)};
+}
+
+Bus::Bus(const BusSettings& settings) {
   buffer_warning_ = buffer_shortfall(settings.receive_buffer_bytes);
-  add_transport(url(settings.port));
-  if (settings.image_port != 0 && settings.image_port != settings.port)
-    add_transport(url(settings.image_port));
+  for (const auto& url : settings.urls()) add_transport(url);
 }
 
 std::unique_ptr<Bus> Bus::in_memory() {

@@ -38,6 +38,9 @@ struct BusSettings {
   int ttl = 0;  // 0: this host only; 1: this network
   int receive_buffer_bytes = 4194304;  // asked of the kernel: two full images
 
+  // LCM's own names for it, one a port, images last.
+  std::vector<std::string> urls() const;
+
   template <class Visitor>
   void visit(Visitor& visitor) {
     visitor("group", group);
