@@ -1,0 +1,104 @@
+#include "services/extraction/extraction_app.hpp"
+
+#include <fmt/format.h>
+#include <spdlog/spdlog.h>
+
+#include "services/extraction/image_decoding.hpp"
+
+namespace arcstart {
+
+static_assert(static_cast<int>(SegmentEnd::kContinues) == stripe_t::CONTINUES);
+static_assert(static_cast<int>(SegmentEnd::kEdge) == stripe_t::EDGE);
+static_assert(static_cast<int>(SegmentEnd::kGap) == stripe_t::GAP);
+static_assert(static_cast<int>(SegmentEnd::kBorder) == stripe_t::BORDER);
+static_assert(static_cast<int>(SegmentEnd::kSaturation) == stripe_t::SATURATION);
+
+ExtractionApp::ExtractionApp(Bus& bus, const ExtractionSettings& settings, const Instance& instance)
+    : bus_(bus), stripe_channel_(instance.sensor_channel("STRIPE")), extractor_(settings) {
+  bus_.subscribe<image_t>(instance.sensor_channel("IMAGE"), Queue::images(),
+                          [this](const image_t& image) { take(image); });
+}
+
+void ExtractionApp::take(const image_t& image) {
+  count_lost(image);
+  // Outside a scan every image stands alone; a scan's first image begins anew.
+  if (image.scan_id == 0 || image.scan_id != scan_id_ || image.run_id != run_id_)
+    extractor_.restart();
+  run_id_ = image.run_id;
+  scan_id_ = image.scan_id;
+  seq_ = image.seq;
+  bus_.publish(stripe_channel_, stripe_of(image));
+}
+
+// Within a scan every frame comes, also an incomplete one; between scans the camera runs on unsent.
+void ExtractionApp::count_lost(const image_t& image) {
+  if (image.scan_id == 0) return;
+  const bool same_scan = image.scan_id == scan_id_ && image.run_id == run_id_;
+  const std::int64_t lost = same_scan ? image.seq - seq_ - 1 : image.scan_index;
+  if (lost <= 0) return;
+  health_.lost += lost;
+  health_.last_error = fmt::format(
+      "{} images lost before seq {}: see the receive buffer's size and the camera's statistics",
+      lost, image.seq);
+  spdlog::warn("{}", health_.last_error);
+}
+
+std::string ExtractionApp::grey_values(const image_t& image, GreyImage& grey) {
+  if (!image.incomplete.empty()) return "image incomplete: " + image.incomplete;
+  if (!image.laser_on) return "laser off";
+  if (image.width <= 0 || image.height <= 0) return "image has no size";
+  const std::uint8_t* data = image.data.data();
+  std::string error;
+  if (image.encoding == image_t::PNG) {
+    error = decode_grey_png(data, image.data.size(), image.width, image.height, decoded_);
+    data = decoded_.data;
+  } else if (image.encoding != image_t::MONO8) {
+    error = "unknown encoding";
+  } else if (image.data.size() != static_cast<std::size_t>(image.width) * image.height) {
+    error =
+        fmt::format("{} bytes for {} x {} pixels", image.data.size(), image.width, image.height);
+  }
+  if (!error.empty()) {
+    health_.last_error = fmt::format("image seq {}: {}", image.seq, error);
+    spdlog::warn("{}", health_.last_error);
+    return error;
+  }
+  grey = {
+      data, image.width, image.height,
+      image.encoding == image_t::PNG ? static_cast<std::ptrdiff_t>(decoded_.step) : image.width};
+  return "";
+}
+
+stripe_t ExtractionApp::stripe_of(const image_t& image) {
+  stripe_t message{};
+  message.utime = image.utime;
+  message.run_id = image.run_id;
+  message.seq = image.seq;
+  message.scan_id = image.scan_id;
+  message.scan_index = image.scan_index;
+  message.sensor_width = image.sensor_width;
+  message.sensor_height = image.sensor_height;
+
+  GreyImage grey;
+  message.empty = grey_values(image, grey);
+  if (!message.empty.empty()) return message;
+  const Stripe stripe = extractor_.extract(grey);
+  message.sigma = stripe.sigma;
+  message.noise = stripe.noise;
+  message.saturated_share = stripe.saturated_share;
+  message.empty = stripe.empty;
+  message.count = static_cast<std::int32_t>(stripe.centres.size());
+  for (const StripeCentre& centre : stripe.centres) {
+    message.u.push_back(centre.u + static_cast<float>(image.offset_u));
+    message.v.push_back(centre.v + static_cast<float>(image.offset_v));
+    message.strength.push_back(centre.strength);
+    message.width.push_back(centre.width);
+    message.deviation.push_back(centre.deviation);
+    message.segment.push_back(centre.segment);
+    message.rank.push_back(centre.chosen ? stripe_t::CHOSEN : stripe_t::SECOND_CANDIDATE);
+    message.segment_end.push_back(static_cast<std::int8_t>(centre.end));
+  }
+  return message;
+}
+
+}  // namespace arcstart

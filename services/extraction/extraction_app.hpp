@@ -1,0 +1,40 @@
+// The service `extraction`: <SENSOR>_IMAGE in, <SENSOR>_STRIPE out, exactly one for each.
+#pragma once
+
+#include <arcstart/image_t.hpp>
+#include <arcstart/stripe_t.hpp>
+#include <cstdint>
+#include <opencv2/core.hpp>
+#include <string>
+
+#include "common/bus.hpp"
+#include "common/service.hpp"
+#include "services/extraction/stripe_extractor.hpp"
+
+namespace arcstart {
+
+class ExtractionApp : public App {
+ public:
+  // bus must outlive the app.
+  ExtractionApp(Bus& bus, const ExtractionSettings& settings, const Instance& instance);
+
+  Health health() const override { return health_; }
+
+ private:
+  void take(const image_t& image);
+  void count_lost(const image_t& image);
+  stripe_t stripe_of(const image_t& image);
+  std::string grey_values(const image_t& image,
+                          GreyImage& grey);  // why there are none, empty where there are
+
+  Bus& bus_;
+  std::string stripe_channel_;
+  StripeExtractor extractor_;
+  cv::Mat decoded_;
+  Health health_;
+
+  // Of the image before.
+  std::int64_t run_id_ = -1, scan_id_ = 0, seq_ = -1;
+};
+
+}  // namespace arcstart

@@ -1,0 +1,39 @@
+// Ridge points linked into chains along the line they lie on.
+#pragma once
+
+#include <array>
+#include <vector>
+
+#include "services/extraction/ridge.hpp"
+
+namespace arcstart {
+
+struct LinkingSettings {
+  double strong_curvature =
+      0;  // hysteresis: a chain holds at least three points of this curvature; grey values / px^2
+  int fewest_points = 10;  // of a chain
+};
+
+// Indices of points, in order along the line.
+using Chain = std::vector<int>;
+
+class Linker {
+ public:
+  // points in raster order. Two points are linked where each is the other's best neighbour on that
+  // side: near, ahead along the tangent, and of like direction. So a chain grows to both sides,
+  // does not depend on where one begins, and never forks. Chains come in order of their first point
+  // in the raster.
+  void link(const std::vector<RidgePoint>& points, const LinkingSettings& settings,
+            std::vector<Chain>& chains);
+
+ private:
+  void find_neighbours(const std::vector<RidgePoint>& points);
+  Chain follow(int start, int side, std::size_t size);
+
+  // Sides 0 and 1: against and along the tangent (-normal_v, normal_u).
+  std::vector<std::array<int, 2>> best_, linked_;
+  std::vector<char> taken_;
+  std::vector<int> row_begin_;
+};
+
+}  // namespace arcstart

@@ -1,0 +1,253 @@
+#include "services/extraction/selection.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <utility>
+
+namespace arcstart {
+namespace {
+
+// Worth and cost are in columns of clean stripe.
+constexpr float kBreakCost = 12;         // to leave a line for any other place
+constexpr int kNear = 4;                 // columns within which a path goes on as on one line
+constexpr float kLongestNearJump = 6;    // px
+constexpr int kFar = 100;                // columns over which a line may be found again after a gap
+constexpr float kSteepest = 4;           // slope believed in
+constexpr int kMostOfLine = 6;           // candidates of a line
+constexpr float kSameLine = 4;           // px: nearer points of a column belong to one stripe
+constexpr float kOutshone = 1.7f;        // times as strong
+constexpr int kReflectionWindow = 100;   // points of the chain to each side
+constexpr int kReflectionEvidence = 80;  // points at least
+
+using Weighted = std::pair<float, float>;  // value, weight
+
+float weighted_median(std::vector<Weighted>& values) {
+  std::sort(values.begin(), values.end());
+  double total = 0, sum = 0;
+  for (const auto& [value, weight] : values) total += weight;
+  for (const auto& [value, weight] : values) {
+    sum += weight;
+    if (2 * sum >= total) return value;
+  }
+  return 0;
+}
+
+// By how much `to` lies off the line through both ends' slopes, px.
+template <class Candidate>
+float offset_from_line(const Candidate& from, const Candidate& to) {
+  return std::abs(to.across - from.across -
+                  0.5f * (from.slope + to.slope) * (to.along - from.along));
+}
+
+}  // namespace
+
+void Selector::collect(const std::vector<RidgePoint>& points, const std::vector<Chain>& chains,
+                       bool along_rows) {
+  std::vector<Candidate> all;
+  int lines = 0;
+  for (int c = 0; c < static_cast<int>(chains.size()); ++c)
+    for (int i = 0; i < static_cast<int>(chains[c].size()); ++i) {
+      const RidgePoint& p = points[chains[c][i]];
+      Candidate candidate{};
+      candidate.point = chains[c][i];
+      candidate.chain = c;
+      candidate.position = i;
+      candidate.line = along_rows ? p.row : p.column;
+      candidate.along = along_rows ? p.v : p.u;
+      candidate.across = along_rows ? p.u : p.v;
+      const float normal_along = along_rows ? p.normal_v : p.normal_u;
+      const float normal_across = along_rows ? p.normal_u : p.normal_v;
+      candidate.slope = std::abs(normal_across) > 0.05f ? -normal_along / normal_across : 0;
+      candidate.slope = std::clamp(candidate.slope, -kSteepest, kSteepest);
+      candidate.curvature = p.curvature;
+      lines = std::max(lines, candidate.line + 1);
+      all.push_back(candidate);
+    }
+  std::sort(all.begin(), all.end(), [](const Candidate& a, const Candidate& b) {
+    if (a.line != b.line) return a.line < b.line;
+    return a.curvature != b.curvature ? a.curvature > b.curvature : a.point < b.point;
+  });
+  candidates_.clear();
+  line_begin_.assign(lines + 1, 0);
+  int of_line = 0;
+  for (std::size_t i = 0; i < all.size(); ++i) {
+    of_line = i > 0 && all[i].line == all[i - 1].line ? of_line + 1 : 0;
+    if (of_line >= kMostOfLine) continue;
+    candidates_.push_back(all[i]);
+    ++line_begin_[all[i].line + 1];
+  }
+  for (int line = 0; line < lines; ++line) line_begin_[line + 1] += line_begin_[line];
+
+  // A chain's first and last candidate along the image, whatever way the chain was followed.
+  std::vector<int> first(chains.size(), -1), last(chains.size(), -1);
+  for (int i = 0; i < static_cast<int>(candidates_.size()); ++i) {
+    const int chain = candidates_[i].chain;
+    if (first[chain] < 0) first[chain] = i;
+    last[chain] = i;
+  }
+  for (const int i : first)
+    if (i >= 0) candidates_[i].starts_chain = true;
+  for (const int i : last)
+    if (i >= 0) candidates_[i].ends_chain = true;
+}
+
+void Selector::mark_reflections(const std::vector<Chain>& chains) {
+  // Along each chain, how many of its points up to here have a stronger one in their column.
+  std::vector<std::vector<int>> outshone(chains.size());
+  for (std::size_t c = 0; c < chains.size(); ++c) outshone[c].assign(chains[c].size() + 1, 0);
+  for (const Candidate& candidate : candidates_)
+    for (int j = line_begin_[candidate.line]; j < line_begin_[candidate.line + 1]; ++j)
+      if (candidates_[j].curvature > kOutshone * candidate.curvature &&
+          std::abs(candidates_[j].across - candidate.across) > kSameLine) {
+        outshone[candidate.chain][candidate.position + 1] = 1;
+        break;
+      }
+  for (auto& sums : outshone)
+    for (std::size_t i = 1; i < sums.size(); ++i) sums[i] += sums[i - 1];
+  for (Candidate& candidate : candidates_) {
+    const auto& sums = outshone[candidate.chain];
+    const int size = static_cast<int>(sums.size()) - 1;
+    const int begin = std::max(0, candidate.position - kReflectionWindow);
+    const int end = std::min(size, candidate.position + kReflectionWindow + 1);
+    candidate.outshone = 2 * (sums[end] - sums[begin]) > std::max(end - begin, kReflectionEvidence);
+  }
+}
+
+void Selector::rate(const std::vector<float>& widths) {
+  std::vector<Weighted> values;
+  for (const Candidate& c : candidates_) values.push_back({c.curvature, c.curvature});
+  const float usual_curvature = weighted_median(values);
+  values.clear();
+  for (const Candidate& c : candidates_)
+    if (widths[c.point] > 0)
+      values.push_back({widths[c.point], std::min(c.curvature, usual_curvature)});
+  const float usual_width = weighted_median(values);
+  for (Candidate& c : candidates_) {
+    float likeness = 0.7f;
+    if (widths[c.point] > 0) {
+      const float difference = std::log(widths[c.point] / usual_width) / 0.6f;
+      likeness = std::exp(-0.5f * difference * difference);
+    }
+    const float strength = std::sqrt(std::min(1.0f, c.curvature / usual_curvature));
+    c.worth = c.outshone ? -0.1f : strength * likeness - 0.1f;
+  }
+}
+
+float Selector::leaving_cost(const Candidate& from, const Candidate& to) const {
+  const float gap = to.along - from.along;
+  const float offset = offset_from_line(from, to);
+  if (to.line - from.line <= kNear) {
+    if (offset > kLongestNearJump) return kBreakCost;
+    return 0.5f * std::max(0.0f, offset - 0.5f) +
+           0.3f * static_cast<float>(to.line - from.line - 1);
+  }
+  // The same line found again beyond a gap.
+  return std::min(kBreakCost, 4 + 0.06f * gap + 6 * offset / (2 + 0.2f * gap));
+}
+
+std::vector<int> Selector::best_path() const {
+  const int count = static_cast<int>(candidates_.size());
+  std::vector<float> score(count);
+  std::vector<int> previous(count, -1), chain_ends;
+  int best = -1;  // of all in the lines before
+  const int lines = static_cast<int>(line_begin_.size()) - 1;
+  for (int line = 0; line < lines; ++line) {
+    for (int i = line_begin_[line]; i < line_begin_[line + 1]; ++i) {
+      const Candidate& here = candidates_[i];
+      float highest = 0;
+      const auto consider = [&](int from, float cost) {
+        if (score[from] - cost <= highest) return;
+        highest = score[from] - cost;
+        previous[i] = from;
+      };
+      for (int j = line_begin_[std::max(0, line - kNear)]; j < line_begin_[line]; ++j)
+        consider(j, leaving_cost(candidates_[j], here));
+      if (here.starts_chain)
+        for (const int j : chain_ends)
+          if (candidates_[j].line < line - kNear && candidates_[j].line >= line - kFar)
+            consider(j, leaving_cost(candidates_[j], here));
+      if (best >= 0) consider(best, kBreakCost);
+      score[i] = highest + here.worth;
+    }
+    for (int i = line_begin_[line]; i < line_begin_[line + 1]; ++i) {
+      if (best < 0 || score[i] > score[best]) best = i;
+      if (candidates_[i].ends_chain) chain_ends.push_back(i);
+    }
+  }
+  std::vector<int> path;
+  if (best >= 0 && score[best] > 0)
+    for (int i = best; i >= 0; i = previous[i]) path.push_back(i);
+  std::reverse(path.begin(), path.end());
+  return path;
+}
+
+void Selector::split_path(const std::vector<int>& path, const SelectionSettings& settings,
+                          Selection& selection) {
+  chosen_.assign(line_begin_.size() - 1, -1);
+  for (std::size_t begin = 0; begin < path.size();) {
+    std::size_t end = begin + 1;
+    while (end < path.size()) {
+      const Candidate &from = candidates_[path[end - 1]], &to = candidates_[path[end]];
+      if (to.line - from.line > settings.longest_hole || offset_from_line(from, to) > 3) break;
+      ++end;
+    }
+    if (static_cast<int>(end - begin) >= settings.fewest_points) {
+      Branch branch;
+      for (std::size_t i = begin; i < end; ++i) {
+        branch.points.push_back(candidates_[path[i]].point);
+        chosen_[candidates_[path[i]].line] = path[i];
+      }
+      selection.branches.push_back(std::move(branch));
+    }
+    begin = end;
+  }
+}
+
+void Selector::add_second_candidates(const SelectionSettings& settings, Selection& selection) {
+  std::vector<std::pair<int, int>> seconds;  // chain, candidate
+  for (std::size_t line = 0; line + 1 < line_begin_.size(); ++line)
+    for (int i = line_begin_[line]; i < line_begin_[line + 1]; ++i) {
+      if (i == chosen_[line]) continue;
+      if (chosen_[line] >= 0 &&
+          std::abs(candidates_[i].across - candidates_[chosen_[line]].across) <= kSameLine)
+        continue;
+      seconds.push_back({candidates_[i].chain, i});
+      break;  // the strongest one only
+    }
+  std::sort(seconds.begin(), seconds.end());
+  for (std::size_t begin = 0; begin < seconds.size();) {
+    std::size_t end = begin + 1;
+    while (end < seconds.size() && seconds[end].first == seconds[begin].first &&
+           candidates_[seconds[end].second].line - candidates_[seconds[end - 1].second].line <=
+               settings.longest_hole)
+      ++end;
+    if (static_cast<int>(end - begin) >= settings.fewest_points) {
+      Branch branch;
+      branch.chosen = false;
+      for (std::size_t i = begin; i < end; ++i)
+        branch.points.push_back(candidates_[seconds[i].second].point);
+      selection.branches.push_back(std::move(branch));
+    }
+    begin = end;
+  }
+}
+
+void Selector::select(const std::vector<RidgePoint>& points, const std::vector<Chain>& chains,
+                      const std::vector<float>& widths, const SelectionSettings& settings,
+                      Selection& selection) {
+  selection = {};
+  double across_image = 0;  // of the tangents, weighted with the curvature: > 0 where they run
+                            // along the columns' order
+  for (const Chain& chain : chains)
+    for (const int i : chain)
+      across_image += points[i].curvature * (points[i].normal_v * points[i].normal_v -
+                                             points[i].normal_u * points[i].normal_u);
+  selection.along_rows = across_image < 0;
+  collect(points, chains, selection.along_rows);
+  mark_reflections(chains);
+  rate(widths);
+  split_path(best_path(), settings, selection);
+  add_second_candidates(settings, selection);
+}
+
+}  // namespace arcstart

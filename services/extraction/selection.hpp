@@ -1,0 +1,72 @@
+// Which of the chains are the stripe: one centre for each column of the image, by dynamic
+// programming.
+#pragma once
+
+#include <vector>
+
+#include "services/extraction/linking.hpp"
+#include "services/extraction/ridge.hpp"
+
+namespace arcstart {
+
+// One branch of the stripe: indices of points, along the image's columns, or rows where the stripe
+// runs down the image.
+struct Branch {
+  std::vector<int> points;
+  bool chosen =
+      true;  // else a second candidate: a reflection, or something else that looks like a stripe
+};
+
+struct Selection {
+  bool along_rows =
+      false;  // one centre a row: the stripe runs down the image rather than across it
+  std::vector<Branch>
+      branches;  // the chosen ones first, in order along the image; no two chosen share a column
+};
+
+struct SelectionSettings {
+  int longest_hole = 5;    // columns without a centre that do not yet end a branch
+  int fewest_points = 10;  // of a branch
+};
+
+class Selector {
+ public:
+  // widths: of the stripe's profile at each point, px, 0 where not known.
+  //
+  // A laser sheet is seen at most once a column, except where one surface hides another. So the
+  // path of greatest worth from the first to the last column is taken, a column having one of its
+  // points or none. A point is worth more the stronger it is, up to the usual strength in the
+  // image, and less the more its width differs from the usual; a bright blob gains nothing. Leaving
+  // a line costs, whatever the distance to the next, so that a step in the profile is followed and
+  // a short detour is not. A chain beside a clearly stronger one for most of its length is its
+  // reflection and is worth nothing, even where the stronger one has a gap. Nothing is put in where
+  // there is no point.
+  void select(const std::vector<RidgePoint>& points, const std::vector<Chain>& chains,
+              const std::vector<float>& widths, const SelectionSettings& settings,
+              Selection& selection);
+
+ private:
+  struct Candidate {
+    int point, chain, position;  // position in the chain
+    int line;                    // column, or row where along_rows
+    float along, across;         // px, along and across the image's main direction of the stripe
+    float slope;                 // d across / d along
+    float curvature, worth;
+    bool starts_chain, ends_chain, outshone;
+  };
+  void collect(const std::vector<RidgePoint>& points, const std::vector<Chain>& chains,
+               bool along_rows);
+  void mark_reflections(const std::vector<Chain>& chains);
+  void rate(const std::vector<float>& widths);
+  std::vector<int> best_path() const;
+  float leaving_cost(const Candidate& from, const Candidate& to) const;
+  void split_path(const std::vector<int>& path, const SelectionSettings& settings,
+                  Selection& selection);
+  void add_second_candidates(const SelectionSettings& settings, Selection& selection);
+
+  std::vector<Candidate> candidates_;  // by line, the strongest of a line first
+  std::vector<int> line_begin_;
+  std::vector<int> chosen_;  // of each line, -1 for none
+};
+
+}  // namespace arcstart

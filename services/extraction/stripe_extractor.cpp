@@ -1,0 +1,168 @@
+#include "services/extraction/stripe_extractor.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include "services/extraction/stripe_quality.hpp"
+
+namespace arcstart {
+namespace {
+
+constexpr double kLeastSigma = 1.2, kLargestSigma = 12;  // px, followed
+constexpr double kFirstLooks[] = {1.5, 3, 6};            // px, where no scale is known
+constexpr double kFollowing = 0.2;  // share of the difference taken up by each image
+constexpr int kFewestWidths = 100;  // to follow
+// Standard deviation of a second derivative under white noise is 0.2443 noise / sigma^3 (3 / (16
+// pi), rooted); what starts a segment stands out from it by eight times.
+constexpr double kNoiseCurvature = 8 * 0.2443;
+
+double median(std::vector<float>& values) {
+  if (values.empty()) return 0;
+  const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
+  std::nth_element(values.begin(), middle, values.end());
+  return *middle;
+}
+
+}  // namespace
+
+void StripeExtractor::look_at(const GreyImage& image, double sigma) {
+  if (kernels_.sigma != sigma) kernels_ = gaussian_kernels(sigma);
+  used_sigma_ = sigma;
+  const double strong =
+      std::max(settings_.least_strength / strength_factor(sigma, settings_.strength_exponent),
+               kNoiseCurvature * noise_ / (sigma * sigma * sigma));
+  detector_.detect(image, kernels_, settings_.weakest_share * strong, points_);
+  linker_.link(points_, {strong, settings_.fewest_centres}, chains_);
+  widths_.assign(points_.size(), 0);
+  for (const Chain& chain : chains_)
+    for (const int i : chain)
+      widths_[i] = static_cast<float>(profile_width(image, points_[i], sigma, noise_));
+  selector_.select(points_, chains_, widths_, {settings_.longest_hole_px, settings_.fewest_centres},
+                   selection_);
+}
+
+double StripeExtractor::chosen_strength() const {
+  const double factor = strength_factor(used_sigma_, settings_.strength_exponent);
+  double sum = 0;
+  for (const Branch& branch : selection_.branches)
+    if (branch.chosen)
+      for (const int i : branch.points) sum += factor * points_[i].curvature;
+  return sum;
+}
+
+double StripeExtractor::median_width() const {
+  std::vector<float> widths;
+  for (const Branch& branch : selection_.branches)
+    if (branch.chosen)
+      for (const int i : branch.points)
+        if (widths_[i] > 0) widths.push_back(widths_[i]);
+  return static_cast<int>(widths.size()) >= std::min(kFewestWidths, settings_.fewest_centres)
+             ? median(widths)
+             : 0;
+}
+
+// Strength is largest where sigma is the stripe's own width (ridge.hpp): the strongest of a few
+// looks tells roughly, the profile measured there tells the rest.
+void StripeExtractor::find_scale(const GreyImage& image) {
+  double strongest = 0, best = kFirstLooks[0];
+  for (const double sigma : kFirstLooks) {
+    look_at(image, sigma);
+    if (const double strength = chosen_strength(); strength > strongest) {
+      strongest = strength;
+      best = sigma;
+    }
+  }
+  if (used_sigma_ != best) look_at(image, best);
+  for (int i = 0; i < 3; ++i) {
+    const double width = median_width();
+    if (width == 0) return;
+    const double wanted = std::clamp(settings_.sigma_per_width * width, kLeastSigma, kLargestSigma);
+    if (std::abs(wanted - used_sigma_) < 0.05 * used_sigma_) break;
+    look_at(image, wanted);
+  }
+  if (median_width() > 0) sigma_ = used_sigma_;
+}
+
+void StripeExtractor::follow_scale() {
+  const double width = median_width();
+  if (width == 0) return;
+  const double wanted = std::clamp(settings_.sigma_per_width * width, kLeastSigma, kLargestSigma);
+  sigma_ += kFollowing * (wanted - sigma_);
+}
+
+// The law knows white noise alone; speckle and the surface's grain usually scatter the centres
+// more. By how many times: from the distances of centres from the chord between two farther along,
+// at which their errors no longer hang together.
+double StripeExtractor::scatter_factor(double sigma) const {
+  const auto lag = static_cast<std::size_t>(std::max(6.0, std::ceil(4 * sigma)));
+  std::vector<float> ratios;
+  for (const Branch& branch : selection_.branches) {
+    if (!branch.chosen) continue;
+    for (std::size_t i = lag; i + lag < branch.points.size(); ++i) {
+      const RidgePoint &a = points_[branch.points[i - lag]], &p = points_[branch.points[i]],
+                       &b = points_[branch.points[i + lag]];
+      const double du = b.u - a.u, dv = b.v - a.v, length = std::hypot(du, dv);
+      if (length == 0) continue;
+      const double distance = std::abs((p.u - a.u) * dv - (p.v - a.v) * du) / length;
+      const double law = centre_deviation(p.curvature, sigma, noise_);
+      ratios.push_back(
+          static_cast<float>(distance / (law * std::sqrt(1.5))));  // variance 1 + 1/4 + 1/4
+    }
+  }
+  if (ratios.size() < 20) return 1;
+  return std::max(1.0, median(ratios) / 0.6745);
+}
+
+Stripe StripeExtractor::describe(const GreyImage& image) const {
+  Stripe stripe;
+  stripe.sigma = static_cast<float>(used_sigma_);
+  stripe.noise = static_cast<float>(noise_);
+  const double factor = strength_factor(used_sigma_, settings_.strength_exponent);
+  const double scatter = scatter_factor(used_sigma_);
+  const int margin = RidgeDetector::margin(kernels_);
+  int chosen = 0, saturated = 0;
+  for (std::size_t b = 0; b < selection_.branches.size(); ++b) {
+    const Branch& branch = selection_.branches[b];
+    const BranchEnds ends = branch_ends(image, points_, selection_, b, used_sigma_, margin);
+    for (std::size_t i = 0; i < branch.points.size(); ++i) {
+      const RidgePoint& p = points_[branch.points[i]];
+      StripeCentre centre{};
+      centre.u = p.u;
+      centre.v = p.v;
+      centre.strength = static_cast<float>(factor * p.curvature);
+      centre.width = widths_[branch.points[i]];
+      centre.deviation =
+          static_cast<float>(scatter * centre_deviation(p.curvature, used_sigma_, noise_));
+      centre.segment = static_cast<std::int16_t>(b);
+      centre.chosen = branch.chosen;
+      centre.end = i == 0                          ? ends.first
+                   : i + 1 == branch.points.size() ? ends.last
+                                                   : SegmentEnd::kContinues;
+      if (branch.chosen) {
+        ++chosen;
+        saturated += is_saturated(image, p.u, p.v);
+      }
+      stripe.centres.push_back(centre);
+    }
+  }
+  if (chosen > 0)
+    stripe.saturated_share = static_cast<float>(saturated) / static_cast<float>(chosen);
+  return stripe;
+}
+
+Stripe StripeExtractor::extract(const GreyImage& image) {
+  noise_ = noise_of(image);
+  const bool follows = settings_.sigma_px == 0;
+  if (!follows)
+    look_at(image, settings_.sigma_px);
+  else if (sigma_ == 0)
+    find_scale(image);
+  else
+    look_at(image, sigma_);
+  Stripe stripe = describe(image);
+  if (stripe.centres.empty()) stripe.empty = "no stripe found";
+  if (follows && sigma_ > 0) follow_scale();
+  return stripe;
+}
+
+}  // namespace arcstart

@@ -1,0 +1,72 @@
+// The stripe in an image: ridge points, chains, selection, quality; and the scale at which to look
+// for it.
+#pragma once
+
+#include <cstdint>
+#include <string>
+#include <vector>
+
+#include "services/extraction/extraction_settings.hpp"
+#include "services/extraction/grey_image.hpp"
+#include "services/extraction/linking.hpp"
+#include "services/extraction/ridge.hpp"
+#include "services/extraction/segment_ends.hpp"
+#include "services/extraction/selection.hpp"
+
+namespace arcstart {
+
+struct StripeCentre {
+  float u, v;       // px, pixel centres at integers
+  float strength;   // N of Eq. 3; grey values
+  float width;      // standard deviation of the profile; px, 0 where not measured
+  float deviation;  // standard deviation across the stripe; px
+  std::int16_t segment;
+  bool chosen;     // else a second candidate
+  SegmentEnd end;  // why its segment ends here
+};
+
+struct Stripe {
+  std::vector<StripeCentre> centres;  // segment by segment, in order along each
+  float sigma = 0;                    // of the kernels used; px
+  float noise = 0;                    // standard deviation where nothing is lit; grey values
+  float saturated_share = 0;          // of the chosen centres, on pixels at 255
+  std::string empty;                  // why there are no centres
+};
+
+class StripeExtractor {
+ public:
+  explicit StripeExtractor(const ExtractionSettings& settings) : settings_(settings) {}
+
+  Stripe extract(const GreyImage& image);
+
+  // Forgets the scale: the next image is looked at as if it were the first.
+  void restart() { sigma_ = 0; }
+
+  double active_share() const { return detector_.active_share(); }  // of the last image's blocks
+
+ private:
+  void look_at(const GreyImage& image, double sigma);
+  void find_scale(const GreyImage& image);
+  void follow_scale();
+  double chosen_strength() const;
+  double median_width() const;
+  double scatter_factor(double sigma) const;
+  Stripe describe(const GreyImage& image) const;
+
+  ExtractionSettings settings_;
+  double sigma_ = 0;  // followed; 0: not known yet
+
+  // Of the image looked at last.
+  double noise_ = 0;
+  double used_sigma_ = 0;
+  RidgeDetector detector_;
+  Linker linker_;
+  Selector selector_;
+  GaussianKernels kernels_;
+  std::vector<RidgePoint> points_;
+  std::vector<Chain> chains_;
+  std::vector<float> widths_;  // of each point; px, 0 where not measured
+  Selection selection_;
+};
+
+}  // namespace arcstart

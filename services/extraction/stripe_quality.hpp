@@ -1,0 +1,28 @@
+// What a centre is worth: noise of the image, width of the stripe, standard deviation of the
+// centre.
+#pragma once
+
+#include "services/extraction/grey_image.hpp"
+#include "services/extraction/ridge.hpp"
+
+namespace arcstart {
+
+// Standard deviation of the grey values where the image is flat: the median over patches spread
+// over the image of what a mask that sees neither slope nor curvature gives (Immerkaer 1996); at
+// least that of rounding, 0.29. 0 for an image below 16 x 16.
+double noise_of(const GreyImage& image);
+
+// Standard deviation of the stripe's profile across the point, px; 0 where it has none that stands
+// out from its surroundings by more than three times the noise. The profile is what rises above the
+// line between the grey values of both sides, taken from its top down to a tenth (or to twice the
+// noise), with what is cut off there and the pixel's own width corrected for a Gaussian. sigma: of
+// the kernels, sets how far the sides are.
+double profile_width(const GreyImage& image, const RidgePoint& point, double sigma, double noise);
+
+// White-noise law of the centre: 0.1995 noise (w^2 + s^2)^(3/2) / (A w s^2), where A w / (w^2 +
+// s^2)^(3/2) is the curvature.
+double centre_deviation(double curvature, double sigma, double noise);
+
+bool is_saturated(const GreyImage& image, double u, double v);  // the nearest pixel is at 255
+
+}  // namespace arcstart

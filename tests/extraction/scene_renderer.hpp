@@ -1,0 +1,55 @@
+// Images of a laser stripe with exact truth, from closed forms: nothing of the extraction is used.
+#pragma once
+
+#include <cstdint>
+#include <opencv2/core.hpp>
+#include <string>
+#include <vector>
+
+namespace arcstart {
+
+enum class SceneKind { kClean, kTypical, kGlare, kSaturated, kLowContrast };
+
+// What a scene is made of.
+struct SceneSettings {
+  int width = 1600, height = 1200;  // px
+  double amplitude = 150;           // of the stripe; grey values
+  double stripe_width = 2.5;        // standard deviation of its profile; px
+  bool modulated = false;     // amplitude x 1 +- 0.35 +- 0.15, width +- 0.9 px along the stripe
+  double speckle = 0;         // contrast; grain of about 3.3 px
+  double read_noise = 1.5;    // grey values
+  int gaps = 0;               // of 16 to 66 px
+  bool surroundings = false;  // halo, texture, gradient, scratches
+  int blobs = 0;              // of sigma 3 to 15 by 3 to 11 px, 60 to 260 grey values
+  bool ghost = false;  // 45 to 95 px beside the stripe, 150 to 300 px long, 0.35 of its brightness
+  bool arc = false;    // glare with rays, and spatter
+};
+SceneSettings scene_settings(SceneKind kind);
+
+// The stripe's middle (the peak of its noiseless profile), every half pixel of its length.
+struct TruthPoint {
+  double u, v;    // px
+  bool visible;   // not in a gap
+  double corner;  // distance along u to the nearest corner; px
+};
+
+struct Scene {
+  cv::Mat grey;  // 8 bit
+  std::vector<TruthPoint> truth;
+};
+Scene render_scene(const SceneSettings& settings, std::uint64_t seed);
+
+// What the centres chosen are worth against the truth.
+struct SceneScore {
+  double rms = 0, p95 = 0;  // perpendicular error of the centres that are not false; px
+  double recall = 0;        // share of the visible truth with a centre within 3 px
+  double wrong = 0;         // share of the centres over 3 px from every visible piece
+  std::size_t centres = 0;
+};
+struct Centre {
+  double u, v;
+};
+// straight_only: centres nearer than this to a corner are left out of rms and p95.
+SceneScore score(const Scene& scene, const std::vector<Centre>& centres, double from_corners = 0);
+
+}  // namespace arcstart
