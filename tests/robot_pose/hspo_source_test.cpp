@@ -77,6 +77,26 @@ TEST_CASE("HSPO source: datagrams arrive with the kernel's time") {
   CHECK(source.counts().malformed == 2);
 }
 
+TEST_CASE("HSPO source: arrival is when the kernel took a datagram in, not when it was read") {
+  std::atomic<int> notified = 0;
+  std::atomic<bool> released = false;
+  HspoSource source(any_port(), [&] {
+    ++notified;
+    while (!released) std::this_thread::sleep_for(std::chrono::milliseconds(1));
+  });
+  source.start();
+  Sender sender(source.port());
+  sender.send(tool_packet(1, 1000));
+  wait_for(notified, 1);  // the reader is held up now
+  sender.send(tool_packet(2, 21'000));
+  const std::int64_t sent = utime_now();
+  std::this_thread::sleep_for(std::chrono::milliseconds(5));
+  released = true;
+  wait_for(notified, 2);
+  CHECK(source.poll()->arrival_utime <= sent);
+  CHECK(source.poll()->arrival_utime <= sent);
+}
+
 TEST_CASE("HSPO source: a port that is taken is said so") {
   HspoSource first(any_port(), [] {});
   first.start();
