@@ -2,8 +2,10 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <limits>
 #include <set>
+#include <utility>
 
 namespace arcstart {
 namespace {
@@ -52,12 +54,17 @@ Recording::Recording(const std::vector<std::string>& paths, const std::string& s
   if (paths.empty()) throw RecordingError("no recording is given");
   name_ = printable(paths.front());
   if (paths.size() > 1) name_ += fmt::format(" and {} more", paths.size() - 1);
-  for (const auto& path : paths) {
-    logs_.emplace_back(path);
-    if (logs_.back().damage().empty()) continue;
+  for (const auto& path : paths) logs_.emplace_back(path);
+  // The order in which they are named must not matter.
+  std::sort(logs_.begin(), logs_.end(), [](const EventLog& a, const EventLog& b) {
+    return std::pair(a.entries().front().timestamp, a.path()) <
+           std::pair(b.entries().front().timestamp, b.path());
+  });
+  for (const auto& log : logs_) {
+    if (log.damage().empty()) continue;
     damaged_ = true;
-    warnings_.push_back(fmt::format("{}: damaged, replayed up to there: {}", printable(path),
-                                    logs_.back().damage()));
+    warnings_.push_back(
+        fmt::format("{}: damaged, replayed up to there: {}", printable(log.path()), log.damage()));
   }
   choose_instances(sensor, robot);
   for (std::size_t log = 0; log < logs_.size(); ++log)
