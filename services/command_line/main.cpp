@@ -1,21 +1,34 @@
 // arcstart: what a person types. A subcommand a job.
+#include <spdlog/sinks/stdout_sinks.h>
+#include <spdlog/spdlog.h>
+
 #include <CLI/CLI.hpp>
 #include <iostream>
 
 #include "common/bus.hpp"
 #include "common/configuration.hpp"
+#include "services/command_line/cell_command.hpp"
+#include "services/command_line/extract_command.hpp"
 #include "services/command_line/monitor_command.hpp"
+#include "services/command_line/replay_command.hpp"
 #include "services/command_line/scan_command.hpp"
 
 int main(int argc, char** argv) {
   using namespace arcstart;
+  // What the stages have to say in replay goes to standard error; standard output is for results.
+  spdlog::set_default_logger(spdlog::stderr_logger_mt("arcstart"));
+  spdlog::set_level(spdlog::level::warn);
+  spdlog::set_pattern("%n: %l: %v");
   CLI::App program("arcstart: finds where a welding robot is to strike the arc");
   program.set_version_flag("--version", ARCSTART_VERSION);
   program.require_subcommand(1);
   program.footer("arcstart COMMAND --help tells all of a command.");
   int exit_code = 0;
   add_scan_command(program, exit_code);
+  add_replay_command(program, exit_code);
+  add_extract_command(program, exit_code);
   add_monitor_command(program, exit_code);
+  add_cell_command(program, exit_code);
   try {
     program.parse(argc, argv);
     return exit_code;

@@ -3,22 +3,28 @@
 #include <unistd.h>
 
 #include <csignal>
+#include <functional>
 #include <iostream>
 #include <limits>
 #include <memory>
+#include <set>
+#include <utility>
 
 #include "common/bus.hpp"
 #include "common/time.hpp"
+#include "services/command_line/message_facts.hpp"
+#include "services/command_line/seam_json.hpp"
 #include "services/command_line/traffic.hpp"
 
 namespace arcstart {
 namespace {
 
 constexpr std::int64_t kSecond = 1'000'000;  // us
+constexpr std::size_t kMostSeams = 10000;    // remembered, so that none is told twice
 
 struct Options {
   std::string cell;
-  bool once = false, json = false;
+  bool once = false, json = false, print_urls = false, seams = false;
   double seconds = 0;  // 0: until Ctrl-C
 };
 
@@ -37,26 +43,53 @@ void print(const Options& options, const Traffic& traffic, const Bus& bus) {
   std::cout << std::endl;
 }
 
+std::function<bool()> until_asked(double seconds) {
+  std::signal(SIGINT, [](int) { end_asked = 1; });
+  std::signal(SIGTERM, [](int) { end_asked = 1; });
+  const std::int64_t end = seconds > 0 ? steady_now() + seconds_to_us(seconds)
+                                       : std::numeric_limits<std::int64_t>::max();
+  return [end] { return end_asked || steady_now() >= end; };
+}
+
+// Each SEAM once, as it comes.
+int watch_seams(Bus& bus, const std::function<bool()>& is_over) {
+  std::set<std::pair<std::string, std::int64_t>> told;
+  bool all_found = true;
+  bus.subscribe_pattern(
+      "(?s).*_SEAM", Queue::measurements(),
+      [&](const Bus::Bytes& bytes, const std::string& channel) {
+        seam_t seam;
+        if (!decode(bytes, seam).empty() || !told.insert({channel, seam.scan_id}).second) return;
+        // A sender may invent scans without end.
+        if (told.size() > kMostSeams) told.erase(told.begin());
+        std::cout << seam_to_json(seam).dump() << std::endl;
+        all_found &= seam.verdict == seam_t::FOUND || seam.verdict == seam_t::BACKGROUND_STORED;
+      });
+  while (!is_over()) bus.handle(std::chrono::milliseconds(50));
+  if (told.empty()) std::cerr << "monitor: no seam came\n";
+  return !told.empty() && all_found ? 0 : 1;
+}
+
 int run(const Options& options) {
   const Configuration configuration =
       options.cell.empty() ? Configuration() : Configuration::from_file(options.cell);
-  Bus bus(configuration.read<BusSettings>("bus"));
+  const auto settings = configuration.read<BusSettings>("bus");
+  if (options.print_urls) {
+    for (const auto& url : settings.urls()) std::cout << url << "\n";
+    return 0;
+  }
+  Bus bus(settings);
   if (!bus.buffer_warning().empty()) std::cerr << "monitor: " << bus.buffer_warning() << "\n";
+  const auto is_over = until_asked(options.seconds > 0 ? options.seconds : options.once ? 2 : 0);
+  if (options.seams) return watch_seams(bus, is_over);
   Traffic traffic;
   // (?s): a channel's name may hold a line feed, and must show all the same.
   bus.subscribe_pattern("(?s).*", Queue::measurements(),
                         [&](const Bus::Bytes& bytes, const std::string& channel) {
                           traffic.take(channel, bytes, steady_now());
                         });
-  std::signal(SIGINT, [](int) { end_asked = 1; });
-  std::signal(SIGTERM, [](int) { end_asked = 1; });
-
-  const std::int64_t begin = steady_now();
-  const double seconds = options.seconds > 0 ? options.seconds : options.once ? 2 : 0;
-  const std::int64_t end =
-      seconds > 0 ? begin + seconds_to_us(seconds) : std::numeric_limits<std::int64_t>::max();
-  traffic.tick(begin);
-  for (std::int64_t next = begin + kSecond; !end_asked && steady_now() < end;) {
+  traffic.tick(steady_now());
+  for (std::int64_t next = steady_now() + kSecond; !is_over();) {
     bus.handle(std::chrono::milliseconds(50));
     if (steady_now() < next) continue;
     next += kSecond;
@@ -86,6 +119,16 @@ void add_monitor_command(CLI::App& parent, int& exit_code) {
       ->check(CLI::Range(0.1, 1e7));
   command->add_flag("--json", options->json,
                     "Print each table as one line of JSON, an object a channel");
+  command
+      ->add_flag("--seams", options->seams,
+                 "Instead of the table print each SEAM once, one JSON object a line; exit 0 where "
+                 "all are found or "
+                 "backgrounds stored")
+      ->excludes("--once", "--json");
+  command
+      ->add_flag("--print-urls", options->print_urls,
+                 "Only print the bus's LCM URLs, one a port, images last, and end")
+      ->group("For scripts");
   command->footer(
       "A table a second until Ctrl-C: on a terminal over the one before, else one after the "
       "other.\n"
