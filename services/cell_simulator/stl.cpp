@@ -80,12 +80,13 @@ TriangleMesh parse_text(std::string_view bytes, const std::string& name) {
   Words words(bytes);
   TriangleMesh mesh;
   const auto where = [&] { return fmt::format("{}:{}", name, words.line()); };
-  const auto expect = [&](std::string_view wanted) {
-    const std::string_view word = words.next();
-    if (word == wanted) return;
+  const auto fail = [&](std::string_view wanted, std::string_view word) {
     const std::string found =
         word.empty() ? "the end of the file" : fmt::format("'{}'", word.substr(0, 30));
     throw StlError(fmt::format("{}: expected '{}', found {}", where(), wanted, found));
+  };
+  const auto expect = [&](std::string_view wanted) {
+    if (const std::string_view word = words.next(); word != wanted) fail(wanted, word);
   };
   const auto number = [&] {
     std::string_view word = words.next();
@@ -101,9 +102,7 @@ TriangleMesh parse_text(std::string_view bytes, const std::string& name) {
   for (;;) {
     const std::string_view word = words.next();
     if (word == "endsolid") break;
-    if (word != "facet")
-      throw StlError(fmt::format("{}: expected 'facet' or 'endsolid', found '{}'", where(),
-                                 word.substr(0, 30)));
+    if (word != "facet") fail("facet' or 'endsolid", word);
     expect("normal");
     for (int i = 0; i < 3; ++i) number();
     expect("outer");
@@ -141,8 +140,12 @@ TriangleMesh parse_stl(std::string_view bytes, const std::string& name) {
 TriangleMesh read_stl(const std::string& path) {
   std::ifstream file(path, std::ios::binary);
   if (!file) throw StlError(path + ": cannot be opened");
-  const std::string bytes{std::istreambuf_iterator<char>(file), {}};
-  if (file.bad()) throw StlError(path + ": cannot be read");
+  std::string bytes;
+  try {
+    bytes.assign(std::istreambuf_iterator<char>(file), {});
+  } catch (const std::ios_base::failure&) {  // a folder, for one
+    throw StlError(path + ": cannot be read");
+  }
   return parse_stl(bytes, path);
 }
 
