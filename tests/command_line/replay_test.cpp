@@ -1,0 +1,363 @@
+// The whole pipeline on recordings made here in closed form: the Tee's seam is known without it.
+#include "services/command_line/replay.hpp"
+
+#include <algorithm>
+#include <catch2/catch.hpp>
+#include <cstdlib>
+#include <filesystem>
+#include <fstream>
+#include <random>
+
+#include "common/geometry.hpp"
+#include "tests/command_line/synthetic_recording.hpp"
+
+using namespace arcstart;
+using namespace arcstart::test;
+using Catch::Matchers::Contains;
+
+namespace {
+
+using Bytes = std::vector<std::uint8_t>;
+
+Events of_stage(Stage stage) {
+  Recorded recorded;
+  recorded.images = stage == Stage::kImages;
+  recorded.stripes = stage == Stage::kStripes;
+  recorded.profiles = stage == Stage::kProfiles;
+  return record(recorded);
+}
+
+std::vector<Bytes> bytes_of(const ReplayResult& result) {
+  std::vector<Bytes> all;
+  for (const auto& seam : result.seams) all.push_back(seam.bytes);
+  return all;
+}
+
+struct SeamError {
+  double lateral_mm, along_mm, direction_deg;
+};
+SeamError error_of(const seam_t& seam) {
+  const Eigen::Vector3d direction = (kSeamEnd - kSeamStart).normalized();
+  const Eigen::Vector3d error = Eigen::Map<const Eigen::Vector3d>(seam.start) - kSeamStart;
+  const double along = error.dot(direction);
+  return {(error - along * direction).norm(), along,
+          angle_between(Eigen::Map<const Eigen::Vector3d>(seam.direction), direction) * 180 / M_PI};
+}
+
+void check_found(const ReplayResult& result, double lateral_mm, double direction_deg) {
+  REQUIRE(result.seams.size() == 2);
+  CHECK(result.seams[0].kind == scan_t::BACKGROUND);
+  CHECK(result.seams[0].seam.scan_id == kBackgroundScan);
+  CHECK(result.seams[0].seam.verdict == seam_t::BACKGROUND_STORED);
+  const seam_t& seam = result.seams[1].seam;
+  CHECK(result.seams[1].kind == scan_t::WORKPIECE);
+  CHECK(seam.scan_id == kWorkpieceScan);
+  CHECK(seam.background_scan_id == kBackgroundScan);
+  CHECK(seam.reason == "");
+  REQUIRE(seam.verdict == seam_t::FOUND);
+  CHECK(seam.joint_type == "tee");
+  const SeamError error = error_of(seam);
+  CHECK(error.lateral_mm < lateral_mm);
+  CHECK(error.direction_deg < direction_deg);
+  CHECK(std::abs(error.along_mm) < 1.5 * kStripeSpacing);
+  CHECK(result.is_good());
+  CHECK(result.unanswered.empty());
+  CHECK(result.undecodable == 0);
+}
+
+std::string refusal(const std::vector<std::string>& paths, const ReplayOptions& options = {}) {
+  std::string what;
+  try {
+    replay_recordings(paths, options);
+  } catch (const RecordingError& error) {
+    what = error.what();
+  } catch (const EventLogError& error) {
+    what = error.what();
+  } catch (const ConfigurationError& error) {
+    what = error.what();
+  }
+  CHECK(what.find('\n') == std::string::npos);
+  return what;
+}
+
+}  // namespace
+
+TEST_CASE("from profiles the Tee's seam is found where it is, and the same bytes come again") {
+  const Folder folder;
+  const auto path = folder.save("a.lcm", of_stage(Stage::kProfiles));
+  const ReplayResult result = replay_recordings({path});
+  CHECK(result.sensor == "LASER0");
+  CHECK(result.robot == "ROBOT0");
+  CHECK(result.warnings.empty());
+  check_found(result, 0.05, 0.05);
+  CHECK((bytes_of(replay_recordings({path})) == bytes_of(result)));
+}
+
+TEST_CASE("from stripes and positions the Tee's seam is found where it is") {
+  const Folder folder;
+  const auto path = folder.save("a.lcm", of_stage(Stage::kStripes));
+  const ReplayResult result = replay_recordings({path});
+  CHECK(result.warnings.empty());
+  check_found(result, 0.1, 0.1);
+  CHECK(result.seams[1].seam.calibration_id == "closed form");
+  CHECK((bytes_of(replay_recordings({path})) == bytes_of(result)));
+}
+
+TEST_CASE("from images the Tee's seam is found where it is, whatever was recorded beside them") {
+  const Folder folder;
+  const Events events = of_stage(Stage::kImages);
+  const ReplayResult result = replay_recordings({folder.save("a.lcm", events)});
+  check_found(result, 0.5, 0.5);
+
+  // Derived messages, all wrong: had one of them been taken, the seam would lie elsewhere.
+  Events with_derived = events;
+  Recorded derived;
+  derived.stripes = derived.profiles = true;
+  for (auto& event : record(derived)) {
+    stripe_t stripe;
+    profile_t profile;
+    if (event.channel == "LASER0_STRIPE" && decode(event.bytes, stripe).empty()) {
+      for (auto& v : stripe.v) v += 7;
+      event.bytes = encoded(stripe);
+    } else if (event.channel == "LASER0_PROFILE" && decode(event.bytes, profile).empty()) {
+      for (auto& z : profile.z) z += 7;
+      event.bytes = encoded(profile);
+    } else {
+      continue;
+    }
+    with_derived.push_back(event);
+  }
+  seam_t wrong{};
+  wrong.scan_id = kWorkpieceScan;
+  wrong.direction[0] = 1;
+  with_derived.push_back({kWorkpieceScan, "LASER0_SEAM", encoded(wrong)});
+  sort(with_derived);
+  CHECK((bytes_of(replay_recordings({folder.save("b.lcm", with_derived)})) == bytes_of(result)));
+}
+
+TEST_CASE("shifts between channels of up to 300 ms change nothing") {
+  const Folder folder;
+  const Stage stage = GENERATE(Stage::kProfiles, Stage::kStripes);
+  const Events events = of_stage(stage);
+  const auto expected = bytes_of(replay_recordings({folder.save("a.lcm", events)}));
+  std::mt19937 random(11);
+  for (int round = 0; round < 6; ++round) {
+    // Another shift for every event; within a channel the order is kept.
+    std::map<std::string, std::int64_t> newest;
+    Events shifted = events;
+    for (auto& event : shifted) {
+      const bool whole_channel = round % 2 == 0;
+      const auto seed = whole_channel ? std::hash<std::string>{}(event.channel) * 31 +
+                                            static_cast<unsigned>(round)
+                                      : random();
+      event.timestamp += static_cast<std::int64_t>(seed % 600'001) - 300'000;
+      auto& last = newest.try_emplace(event.channel, event.timestamp).first->second;
+      last = event.timestamp = std::max(last, event.timestamp);
+    }
+    sort(shifted);
+    CHECK((bytes_of(replay_recordings({folder.save("b.lcm", shifted)})) == expected));
+  }
+}
+
+TEST_CASE("the parts of a recording give together what it gives") {
+  const Folder folder;
+  const Events events = of_stage(Stage::kStripes);
+  const auto expected = bytes_of(replay_recordings({folder.save("a.lcm", events)}));
+  Events parts[3];
+  for (std::size_t i = 0; i < events.size(); ++i) parts[3 * i / events.size()].push_back(events[i]);
+  std::vector<std::string> paths;
+  for (int i = 0; i < 3; ++i)
+    paths.push_back(folder.save("part" + std::string(1, static_cast<char>('0' + i)), parts[i]));
+  do CHECK((bytes_of(replay_recordings(paths)) == expected));
+  while (std::next_permutation(paths.begin(), paths.end()));
+}
+
+TEST_CASE("a recording cut off anywhere is replayed as far as it goes") {
+  const Folder folder;
+  const auto path = folder.save("a.lcm", of_stage(Stage::kProfiles));
+  const auto expected = bytes_of(replay_recordings({path}));
+  const auto size = std::filesystem::file_size(path);
+  const auto cut_to = [&](std::uintmax_t left) {
+    std::filesystem::copy_file(path, folder / "cut.lcm",
+                               std::filesystem::copy_options::overwrite_existing);
+    std::filesystem::resize_file(folder / "cut.lcm", left);
+  };
+
+  cut_to(size - 1);  // behind the last scan
+  const ReplayResult whole = replay_recordings({folder / "cut.lcm"});
+  CHECK((bytes_of(whole) == expected));
+  CHECK(whole.is_good());
+  REQUIRE(whole.warnings.size() == 1);
+  CHECK_THAT(whole.warnings[0], Contains("cut.lcm: damaged") && Contains("cut off"));
+
+  // In the second scan.
+  const EventLog log(path);
+  const auto& entries = log.entries();
+  const auto in_scan = std::find_if(entries.begin(), entries.end(), [](const auto& entry) {
+    return entry.timestamp > kWorkpieceScan + 1'500'000;
+  });
+  cut_to(in_scan->offset + 3);
+  const ReplayResult half = replay_recordings({folder / "cut.lcm"});
+  REQUIRE(half.seams.size() == 1);
+  CHECK(half.seams[0].bytes == expected[0]);
+  REQUIRE(half.unanswered.size() == 1);
+  CHECK(half.unanswered[0].scan_id == kWorkpieceScan);
+  CHECK_THAT(half.unanswered[0].why, Contains("the recording ends within it"));
+  CHECK_FALSE(half.is_good());
+
+  // In the first.
+  const auto in_first = std::find_if(entries.begin(), entries.end(), [](const auto& entry) {
+    return entry.timestamp > kBackgroundScan + 1'500'000;
+  });
+  cut_to(in_first->offset + 3);
+  CHECK_THAT(refusal({folder / "cut.lcm"}),
+             Contains("cut off") && Contains("no scan before it is whole"));
+
+  for (std::uintmax_t left = 1; left < size; left += size / 37) {
+    cut_to(left);
+    try {
+      const ReplayResult result = replay_recordings({folder / "cut.lcm"});
+      const auto bytes = bytes_of(result);
+      REQUIRE(bytes.size() <= expected.size());
+      CHECK(std::equal(bytes.begin(), bytes.end(), expected.begin()));
+    } catch (const RecordingError&) {
+    } catch (const EventLogError&) {
+    }
+  }
+}
+
+TEST_CASE("the background comes from the recording, from another, or is missed") {
+  const Folder folder;
+  Recorded recorded;
+  recorded.profiles = true;
+  const auto both = folder.save("both.lcm", record(recorded));
+  recorded.background = false;
+  const auto workpiece = folder.save("workpiece.lcm", record(recorded));
+  recorded.workpiece = false;
+  recorded.background = true;
+  const auto background = folder.save("background.lcm", record(recorded));
+
+  const ReplayResult alone = replay_recordings({background});
+  CHECK_FALSE(alone.has_workpiece());
+  CHECK(alone.is_good());
+
+  const ReplayResult without = replay_recordings({workpiece});
+  REQUIRE(without.seams.size() == 1);
+  CHECK(without.seams[0].seam.verdict == seam_t::REFUSED);
+  CHECK_THAT(without.seams[0].seam.reason, Contains("no background"));
+  CHECK_FALSE(without.is_good());
+
+  ReplayOptions options;
+  options.background = background;
+  const ReplayResult given = replay_recordings({workpiece}, options);
+  REQUIRE(given.seams.size() == 1);
+  CHECK(given.seams[0].seam.verdict == seam_t::FOUND);
+  CHECK(given.seams[0].seam.background_scan_id == kBackgroundScan);
+  CHECK(given.is_good());
+
+  const ReplayResult instead = replay_recordings({both}, options);
+  REQUIRE(instead.seams.size() == 1);
+  CHECK(instead.seams[0].seam.verdict == seam_t::FOUND);
+  REQUIRE(instead.warnings.size() == 1);
+  CHECK_THAT(instead.warnings[0], Contains("is left out"));
+
+  options.background = workpiece;
+  CHECK_THAT(refusal({workpiece}, options),
+             Contains("workpiece.lcm: holds no whole background scan"));
+}
+
+TEST_CASE(
+    "settings are those of the recording, of --cell where given, else the defaults, which is "
+    "said") {
+  const Folder folder;
+  Events events = of_stage(Stage::kProfiles);
+  for (auto& event : events) {
+    service_status_t status;
+    if (event.channel != "LASER0_SEAM_FINDING_STATUS") continue;
+    REQUIRE(decode(event.bytes, status).empty());
+    status.configuration = "seam_finding:\n  stripes_min: 900\n";
+    event.bytes = encoded(status);
+  }
+  const auto path = folder.save("a.lcm", events);
+  const ReplayResult strict = replay_recordings({path});
+  REQUIRE(strict.seams.size() == 2);
+  CHECK(strict.seams[1].seam.verdict != seam_t::FOUND);
+  CHECK_THAT(replay_settings({path}, {}), Contains("stripes_min: 900"));
+
+  std::ofstream(folder / "cell.yaml") << "seam_finding:\n  stripes_min: 5\n";
+  ReplayOptions options;
+  options.cell = folder / "cell.yaml";
+  CHECK(replay_recordings({path}, options).is_good());
+  std::ofstream(folder / "cell.yaml") << "seam_finding:\n  stripes: 5\n";
+  CHECK_THAT(refusal({path}, options), Contains("cell.yaml:2: seam_finding.stripes: unknown key"));
+
+  std::erase_if(events,
+                [](const auto& event) { return event.channel == "LASER0_SEAM_FINDING_STATUS"; });
+  const ReplayResult defaults = replay_recordings({folder.save("b.lcm", events)});
+  CHECK(defaults.is_good());
+  REQUIRE(defaults.warnings.size() == 1);
+  CHECK_THAT(defaults.warnings[0],
+             Contains("lacks channel LASER0_SEAM_FINDING_STATUS") && Contains("--cell"));
+}
+
+TEST_CASE("messages damaged behind their first bytes are counted once and left out") {
+  const Folder folder;
+  Events events = of_stage(Stage::kProfiles);
+  int cut = 0;
+  for (auto& event : events)
+    if (event.channel == "LASER0_PROFILE" && event.timestamp > kWorkpieceScan + 1'000'000 &&
+        cut < 2) {
+      event.bytes.resize(event.bytes.size() - 1);
+      ++cut;
+    }
+  const ReplayResult result = replay_recordings({folder.save("a.lcm", events)});
+  CHECK(result.undecodable == 2);
+  REQUIRE(result.seams.size() == 2);
+  CHECK(result.seams[1].seam.profiles_lost == 2);
+}
+
+TEST_CASE("the channels for lcm-logplayer are those that replay begins with") {
+  const Folder folder;
+  const auto channels = [&](Stage stage) {
+    return source_channels({folder.save("a.lcm", of_stage(stage))}, {});
+  };
+  CHECK(channels(Stage::kProfiles) == "(LASER0_SCAN|LASER0_CALIBRATION|LASER0_PROFILE)");
+  CHECK(channels(Stage::kStripes) == "(LASER0_SCAN|LASER0_CALIBRATION|ROBOT0_POSE|LASER0_STRIPE)");
+  std::filesystem::resize_file(folder / "a.lcm", std::filesystem::file_size(folder / "a.lcm") - 1);
+  CHECK_THROWS_AS(source_channels({folder / "a.lcm"}, {}), RecordingError);
+}
+
+TEST_CASE("replay reads and writes no state folder") {
+  const Folder folder, home;
+  const auto path = folder.save("a.lcm", of_stage(Stage::kProfiles));
+  setenv("HOME", home.path().c_str(), 1);
+  setenv("XDG_STATE_HOME", home.path().c_str(), 1);
+  setenv("STATE_DIRECTORY", home.path().c_str(), 1);
+  CHECK(replay_recordings({path}).is_good());
+  CHECK(std::filesystem::is_empty(home.path()));
+  CHECK(std::distance(std::filesystem::directory_iterator(folder.path()), {}) == 1);
+}
+
+TEST_CASE("bytes flipped anywhere in a recording crash nothing") {
+  const Folder folder;
+  Recorded recorded;
+  recorded.profiles = recorded.stripes = true;
+  const auto path = folder.save("a.lcm", record(recorded));
+  std::ifstream in(path, std::ios::binary);
+  const std::string whole(std::istreambuf_iterator<char>(in), {});
+  std::mt19937 random(17);
+  int replayed = 0;
+  for (int round = 0; round < 25; ++round) {
+    std::string spoilt = whole;
+    for (int i = 0; i < 40; ++i) spoilt[random() % spoilt.size()] = static_cast<char>(random());
+    std::ofstream(folder / "b.lcm", std::ios::binary) << spoilt;
+    try {
+      replay_recordings({folder / "b.lcm"});
+      ++replayed;
+    } catch (const RecordingError&) {
+    } catch (const EventLogError&) {
+    } catch (const ConfigurationError&) {
+    }
+  }
+  CHECK(replayed > 0);
+}
