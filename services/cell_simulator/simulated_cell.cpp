@@ -1,0 +1,160 @@
+#include "services/cell_simulator/simulated_cell.hpp"
+
+#include <cmath>
+
+#include "common/time.hpp"
+#include "services/cell_simulator/random_stream.hpp"
+
+namespace arcstart {
+namespace {
+
+enum Purpose : std::uint64_t {
+  kTriggerPhase = 1,
+  kFrameNoise,
+  kPositionNoise
+};  // of random streams
+
+SceneKind kind_of(const std::string& name) {
+  return name == "workpiece" ? SceneKind::workpiece : SceneKind::background;
+}
+
+std::uint64_t mixed(std::uint64_t seed, Purpose purpose, std::uint64_t count) {
+  return RandomStream(RandomStream(seed, purpose).next(), count).next();
+}
+
+DeviceClock clock(std::int64_t now, double start_s, double drift_ppm) {
+  return {now, std::llround(start_s * 1e9), drift_ppm};
+}
+
+RigidTransform tool_of(const CellSimulatorSettings& s) {
+  return from_xyzwpr({s.tool_mm[0], s.tool_mm[1], s.tool_mm[2], s.tool_wpr_deg[0],
+                      s.tool_wpr_deg[1], s.tool_wpr_deg[2]});
+}
+
+RigidTransform search_begin(const CellSimulatorSettings& s) {
+  return taught_tool_pose(s.sensor, s.scene, s.scene.search_begin_mm);
+}
+RigidTransform search_end(const CellSimulatorSettings& s) {
+  return taught_tool_pose(s.sensor, s.scene, s.scene.search_end_mm);
+}
+
+GigeCameraSettings camera_settings(const CellSimulatorSettings& s, std::int64_t now) {
+  return {s.camera_interface,      s.camera_serial,
+          s.sensor.image_width_px, s.sensor.image_height_px,
+          s.frame_rate_hz,         s.image_delay_ms * 1e-3,
+          s.transport_ms * 1e-3,   clock(now, s.camera_clock_start_s, s.camera_clock_drift_ppm)};
+}
+
+RobotControllerSettings controller_settings(const CellSimulatorSettings& s, std::int64_t now) {
+  return {tool_of(s),
+          s.position_noise_mm,
+          s.hspo_joints,
+          s.hspo_tick_us,
+          clock(now, s.robot_clock_start_s, s.robot_clock_drift_ppm),
+          mixed(static_cast<std::uint64_t>(s.seed), kPositionNoise, 0)};
+}
+
+}  // namespace
+
+SimulatedCell::SimulatedCell(const CellSimulatorSettings& settings, std::int64_t now)
+    : settings_(settings),
+      kind_(kind_of(settings.scene_at_start)),
+      seed_(static_cast<std::uint64_t>(settings.seed)),
+      scene_(std::make_shared<const Scene>(make_scene(settings.scene, kind_, seed_))),
+      faults_({settings.fault_scan, settings.fault_after_s, settings.fault_lose_every,
+               settings.fault_camera_away_s, settings.fault_robot_silent_s,
+               settings.fault_robot_clock_back_s}),
+      motion_(search_begin(settings), search_end(settings),
+              {settings.search_speed_mm_s, settings.return_speed_mm_s, settings.acceleration_mm_s2,
+               settings.search_delay_s}),
+      arm_(tool_of(settings)),
+      controller_(controller_settings(settings, now),
+                  [this](std::int64_t utime) { return motion_.pose(utime); }),
+      renderer_(settings.sensor),
+      camera_(
+          camera_settings(settings, now),
+          [this](const Frame& frame, std::uint8_t* grey) { render(frame, grey); },
+          [this](const Frame& frame) {
+            return faults_.frame_lost(frame.slot, camera_.frame_period());
+          }) {
+  if (!reaches(search_begin(settings)) || !reaches(search_end(settings)))
+    throw std::runtime_error(
+        "the arm cannot reach the taught positions: set work_position_mm or tool_mm");
+  camera_.open();
+  sender_ = std::make_unique<HspoSender>(
+      settings.hspo_host, settings.hspo_port, seconds_to_us(settings.hspo_period_ms * 1e-3),
+      [this](std::int64_t instant) {
+        auto packet = controller_.packet(instant, faults_.robot_clock_back_us(instant));
+        if (faults_.robot_silent(instant)) packet.clear();
+        return packet;
+      });
+}
+
+SimulatedCell::~SimulatedCell() {
+  sender_.reset();
+  camera_.close();
+}
+
+// The same search of the same scene gives the same frames: the trigger's phase follows from the
+// seed and the kind of scene, and so do speckle and noise of the n-th frame after the search's
+// begin.
+std::int64_t SimulatedCell::scan_begins(std::int64_t now, std::int64_t scan_begin) {
+  const double phase =
+      RandomStream(mixed(seed_, kTriggerPhase, static_cast<std::uint64_t>(kind_))).uniform();
+  faults_.scan_begins(scan_begin);
+  const std::int64_t start = motion_.search(now, scan_begin, camera_.frame_period(), phase);
+  const std::lock_guard lock(scene_mutex_);
+  return search_start_ = start;
+}
+
+void SimulatedCell::scan_ends(std::int64_t now) {
+  faults_.scan_ends(now);
+  motion_.go_back(now);
+}
+
+void SimulatedCell::put(SceneKind kind, std::uint64_t seed) {
+  auto scene = std::make_shared<const Scene>(make_scene(settings_.scene, kind, seed));
+  {
+    const std::lock_guard lock(scene_mutex_);
+    kind_ = kind;
+    seed_ = seed;
+    scene_ = std::move(scene);
+  }
+  camera_.scene_changed();
+}
+
+bool SimulatedCell::reaches(const RigidTransform& T_base_tool) {
+  return arm_.joints(T_base_tool).has_value();
+}
+
+void SimulatedCell::tick(std::int64_t now) {
+  if (faults_.camera_away(now)) return camera_.close();
+  try {
+    camera_.open();
+    fault_.clear();
+  } catch (const std::exception& error) {
+    fault_ = error.what();
+  }
+  camera_.tick(now);
+  if (fault_.empty() && controller_.unreachable() > 0)
+    fault_ = "the arm could not follow a pose asked for: its joints stayed behind";
+}
+
+// On the camera's threads.
+void SimulatedCell::render(const Frame& frame, std::uint8_t* grey) {
+  std::shared_ptr<const Scene> scene;
+  std::uint64_t noise_seed;
+  {
+    const std::lock_guard lock(scene_mutex_);
+    scene = scene_;
+    noise_seed = mixed(seed_, kFrameNoise, static_cast<std::uint64_t>(kind_));
+    const double period = static_cast<double>(camera_.frame_period());
+    noise_seed = mixed(noise_seed, kFrameNoise,
+                       static_cast<std::uint64_t>(std::llround(
+                           static_cast<double>(frame.start - search_start_) / period)));
+  }
+  renderer_.render(*scene, motion_.pose(frame.middle()), frame.exposure, noise_seed, grey,
+                   frame.region);
+}
+
+}  // namespace arcstart

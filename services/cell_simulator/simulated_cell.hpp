@@ -1,0 +1,70 @@
+// The cell behind the network: scene, arm, camera and robot, put together from their settings.
+#pragma once
+
+#include <cstdint>
+#include <memory>
+#include <mutex>
+#include <string>
+
+#include "services/cell_simulator/cell_faults.hpp"
+#include "services/cell_simulator/cell_simulator_settings.hpp"
+#include "services/cell_simulator/gige_camera.hpp"
+#include "services/cell_simulator/hspo_sender.hpp"
+#include "services/cell_simulator/robot_controller.hpp"
+#include "services/cell_simulator/search_motion.hpp"
+
+namespace arcstart {
+
+// Used by one thread; the devices' threads are its own. Times in us, UTC.
+class SimulatedCell {
+ public:
+  // Throws SceneError, CameraError, HspoSenderError, and std::runtime_error where the arm cannot
+  // reach the taught positions.
+  SimulatedCell(const CellSimulatorSettings& settings, std::int64_t now);
+  ~SimulatedCell();
+
+  // Returns when the search begins.
+  std::int64_t scan_begins(std::int64_t now, std::int64_t scan_begin);
+  void scan_ends(std::int64_t now);
+
+  void put(SceneKind kind, std::uint64_t seed);  // throws SceneError and leaves the scene as it is
+  bool reaches(const RigidTransform& T_base_tool);
+  void go_to(std::int64_t now, const RigidTransform& T_base_tool) {
+    motion_.go_to(now, T_base_tool);
+  }
+  void tick(std::int64_t now);  // at least ten times a second
+
+  SceneKind kind() const { return kind_; }
+  std::uint64_t seed() const { return seed_; }
+  const std::optional<SeamTruth>& seam() const { return scene_->seam(); }
+  const TrueSensor& sensor() const { return renderer_.sensor(); }
+  RigidTransform tool_pose(std::int64_t now) const { return motion_.pose(now); }
+  bool moving(std::int64_t now) const { return motion_.moving(now); }
+  bool laser_on() const { return camera_.laser_on(); }
+  std::int64_t frames() const { return camera_.frames(); }
+  std::int64_t positions() const { return sender_->sent(); }
+  std::string fault() const {
+    return fault_;
+  }  // what cannot be done at present, with what to do; empty for nothing
+
+ private:
+  void render(const Frame& frame, std::uint8_t* grey);
+
+  CellSimulatorSettings settings_;
+  std::mutex scene_mutex_;  // of what the camera's threads read: the four below
+  SceneKind kind_;
+  std::uint64_t seed_;
+  std::shared_ptr<const Scene> scene_;
+  std::int64_t search_start_ = 0;
+  std::string fault_;
+
+  CellFaults faults_;
+  SearchMotion motion_;
+  FanucM20ia arm_;
+  RobotController controller_;
+  ImageRenderer renderer_;  // used by the camera's threads alone, one at a time
+  GigeCamera camera_;
+  std::unique_ptr<HspoSender> sender_;
+};
+
+}  // namespace arcstart
