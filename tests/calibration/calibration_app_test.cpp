@@ -148,6 +148,19 @@ TEST_CASE("a file that goes bad or away leaves the calibration in force, and is 
   CHECK(cell.app->health().state == service_status_t::RUNNING);
 }
 
+TEST_CASE("the file put back with its old stamp is well again") {
+  Cell cell;
+  cell.write(with_id(kContent));
+  cell.run(0, 1);
+  cell.write("id: 0\n");
+  cell.run(1, 2);
+  REQUIRE(cell.app->health().state == service_status_t::DEGRADED);
+  cell.writes = 0;
+  cell.write(with_id(kContent));
+  cell.run(2, 3);
+  CHECK(cell.app->health().state == service_status_t::RUNNING);
+}
+
 TEST_CASE("a file of another sensor or robot is refused") {
   for (const auto& [old, by] : {std::pair("LASER0", "LASER1"), std::pair("ROBOT0", "ROBOT1")}) {
     Cell cell;

@@ -170,6 +170,19 @@ TEST_CASE("a calibration that changes in a scan empties the rest of it") {
                                "4: calibration changed within the scan", "5: x=60"});
 }
 
+TEST_CASE("a scan that begins with an empty stripe has the calibration of that moment") {
+  Bench bench;
+  auto other = std::make_shared<Calibration>(true_calibration());
+  other->id = "fedcba9876543210";
+  bench.positions(0, kSecond);
+  bench.reconstruction.take_calibration(calibration());
+  bench.reconstruction.take_stripe(empty_stripe(10'000, 1));
+  bench.reconstruction.take_calibration(other);
+  bench.reconstruction.take_stripe(stripe(20'000, 2));
+  CHECK(bench.ready() ==
+        Lines{"1: stripe empty: too dark", "2: calibration changed within the scan"});
+}
+
 TEST_CASE("a change is not missed behind an empty stripe that waits for its turn") {
   Bench bench;
   auto other = std::make_shared<Calibration>(true_calibration());
