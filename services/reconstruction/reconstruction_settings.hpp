@@ -6,18 +6,23 @@ namespace arcstart {
 
 // Section `reconstruction` of cell.yaml.
 struct ReconstructionSettings {
-  int keep_every =
-      15;  // M: of each segment the centres 0, M, 2M ... and the last are kept; 1 keeps all
-  double keep_positions_s = 10;  // how long positions are kept for stripes that come late
-  double largest_gap_ms =
-      100;  // between the two positions around a stripe; above it the profile is empty
-  double wait_for_calibration_s =
-      3;  // how far positions may run ahead of a stripe before a calibration is known
-  int waiting_stripes = 1000;  // most that wait for a position; above it the oldest is given up
-  double nearest_mm = 50;      // working range of the sensor: depth along the optical axis,
-  double farthest_mm = 1000;   // points outside are dropped
-  double silence_warning_s =
-      2;  // a stripe that waits longer than this is told in STATUS; changes no result
+  // M of the down-sampling: of each segment the centres 0, M, 2M ... and the last are kept; 1 keeps
+  // all.
+  int keep_every = 15;
+  // How long positions are kept for stripes that come late.
+  double keep_positions_s = 10;
+  // The two positions around a stripe may be so far apart; above it the profile is empty.
+  double largest_gap_ms = 100;
+  // How far positions may run ahead of a stripe before a calibration is known. Less than
+  // keep_positions_s.
+  double wait_for_calibration_s = 3;
+  // Most stripes that wait for a position; above it the oldest is given up.
+  int waiting_stripes = 1000;
+  // Working range of the sensor, depth along the optical axis; points outside are dropped.
+  double nearest_mm = 50;
+  double farthest_mm = 1000;
+  // A stripe that waits longer than this is told in STATUS; it changes no result.
+  double silence_warning_s = 2;
 
   template <class Visitor>
   void visit(Visitor& visitor) {
