@@ -1,0 +1,291 @@
+#include "services/sensor_capture/sensor_capture_app.hpp"
+
+#include <fmt/format.h>
+#include <spdlog/spdlog.h>
+
+#include <algorithm>
+#include <opencv2/imgcodecs.hpp>
+
+#include "common/geometry.hpp"
+#include "common/time.hpp"
+#include "services/sensor_capture/preview.hpp"
+
+namespace arcstart {
+namespace {
+
+constexpr std::int64_t kPreviewPeriod = 500'000;
+constexpr std::int64_t kScanStatePeriod = 200'000;
+constexpr std::int64_t kErrorIsTold = 10'000'000;
+constexpr std::int64_t kHeldBack = 5'000;  // us that a better known clock may cost
+constexpr int kPreviewPixels = 49'000;     // with its header at most 50 KB
+constexpr std::size_t kCommandsRemembered = 256;
+
+static_assert(static_cast<int>(ScanState::Phase::kIdle) == scan_t::IDLE &&
+              static_cast<int>(ScanState::Phase::kScanning) == scan_t::SCANNING &&
+              static_cast<int>(ScanState::Phase::kEnded) == scan_t::ENDED);
+
+ScanOwnerSettings owner_settings(const SensorCaptureSettings& settings) {
+  return {settings.longest_scan_s,
+          settings.end_when_still,
+          {settings.still_duration_s, settings.still_distance_mm, settings.still_angle_deg}};
+}
+
+std::vector<std::uint8_t> png_of(std::vector<std::uint8_t>& pixels, int width, int height) {
+  std::vector<std::uint8_t> bytes;
+  // The fastest level: a stripe on black compresses well at any.
+  cv::imencode(".png", cv::Mat(height, width, CV_8U, pixels.data()), bytes,
+               {cv::IMWRITE_PNG_COMPRESSION, 1});
+  return bytes;
+}
+
+}  // namespace
+
+SensorCaptureApp::SensorCaptureApp(Bus& bus, const SensorCaptureSettings& settings,
+                                   const Instance& instance, std::int64_t run_id,
+                                   std::unique_ptr<FrameSource> source)
+    : bus_(bus),
+      settings_(settings),
+      instance_(instance),
+      run_id_(run_id),
+      source_(std::move(source)),
+      timeline_(static_cast<std::int64_t>(settings.settle_margin_ms * 1000),
+                settings.frames_to_settle),
+      owner_(owner_settings(settings)) {
+  bus_.subscribe<scan_command_t>(instance.sensor_channel("SCAN_COMMAND"), Queue::measurements(),
+                                 [this](const scan_command_t& m) { take_scan_command(m); });
+  bus_.subscribe<camera_command_t>(instance.sensor_channel("CAMERA_COMMAND"), Queue::measurements(),
+                                   [this](const camera_command_t& m) { take_camera_command(m); });
+  if (settings_.end_when_still)
+    bus_.subscribe<robot_pose_t>(
+        instance.robot_channel("POSE"), Queue::measurements(), [this](const robot_pose_t& m) {
+          if (!m.invalid.empty()) return;
+          const RigidTransform pose = transform_from_arrays(m.position, m.quaternion);
+          owner_.position(m.utime, pose.translation(), Eigen::Quaterniond(pose.linear()));
+        });
+  source_->start();
+}
+
+SensorCaptureApp::~SensorCaptureApp() { source_->stop(); }
+
+void SensorCaptureApp::tick(std::int64_t now) {
+  follow_scan(now);  // what the commands and positions just handled have changed
+  while (auto event = source_->poll())
+    std::visit([&](auto& happened) { take(happened, now); }, *event);
+  owner_.tick(now);
+  if (command_ && now > command_->latest_utime) end_command("its images took too long");
+  follow_scan(now);
+  if (steady_now() > error_until_) error_.clear();
+}
+
+// The laser and the clock's mapping follow the scan; its state is told at once when it changes.
+void SensorCaptureApp::follow_scan(std::int64_t now) {
+  clock_.freeze(owner_.scanning());
+  if (owner_.scanning() && command_) end_command("a scan has begun");
+  if (found_ && asked_ != wanted_settings()) ask_for(wanted_settings(), now);
+  if (owner_.revision() != told_revision_ || steady_now() >= next_scan_state_) publish_scan(now);
+}
+
+void SensorCaptureApp::take(Frame& frame, std::int64_t now) {
+  const std::int64_t device_us = frame.device_time_ns / 1000;
+  const auto exposure_before = static_cast<std::int64_t>(timeline_.wanted().exposure_us);
+  const std::int64_t begin = clock_.map(
+      device_us, frame.arrival_utime - (settings_.leader_after_exposure ? exposure_before : 0));
+  if (clock_.held_back_us() > kHeldBack && frame.incomplete.empty()) {
+    frame.incomplete = "the host's clock was set back: when it was taken is not known";
+    frame.pixels.clear();
+  }
+  SettingsTimeline::InForce in_force = timeline_.take_frame(begin);
+  if (wired_laser_) in_force.lit = true;
+  const bool complete = frame.incomplete.empty();
+  const auto exposure = static_cast<std::int64_t>(in_force.settings.exposure_us);
+  const Membership membership = owner_.frame(
+      {frame.seq, begin, begin + exposure, in_force.lit && in_force.certain, complete});
+
+  image_t image = make_image(frame, begin, in_force);
+  if (complete && steady_now() >= next_preview_) publish_preview(image, frame);
+  if (membership.scan_id != 0) {
+    publish_image(image, frame, membership, 0);
+  } else if (command_ && complete && in_force.certain && in_force.ticket >= command_->ticket) {
+    publish_image(image, frame, membership, command_->command_id);
+    if (--command_->left == 0) command_.reset();
+  }
+  follow_scan(now);
+}
+
+void SensorCaptureApp::take(const CameraFound& found, std::int64_t now) {
+  spdlog::info("camera: {}", found.description);
+  found_ = true;
+  starting_ = false;
+  camera_trouble_.clear();
+  wired_laser_ = found.wired_laser;
+  clock_.restart();
+  timeline_.begin(found.settings);
+  owner_.set_shortest_period(found.shortest_period_us);
+  owner_.set_longest_delay(1'000'000 + 3 * found.shortest_period_us);
+  // Something asked of the camera before it was lost may still be on its way to it.
+  ask_for(wanted_settings(), now);
+}
+
+void SensorCaptureApp::take(const CameraLost& lost, std::int64_t now) {
+  found_ = false;
+  starting_ = false;
+  camera_trouble_ = lost.reason;
+  asked_.reset();
+  if (command_) end_command(lost.reason);
+  owner_.camera_lost(now);
+  follow_scan(now);
+}
+
+void SensorCaptureApp::take(const SettingsApplied& applied, std::int64_t now) {
+  if (applied.error.empty())
+    return timeline_.applied(applied.ticket, applied.settings, applied.acknowledged_utime);
+  timeline_.refused(applied.ticket);
+  if (command_ && command_->ticket == applied.ticket) end_command(applied.error);
+  error_ = applied.error;
+  error_until_ = steady_now() + kErrorIsTold;
+  follow_scan(now);
+}
+
+void SensorCaptureApp::take_scan_command(const scan_command_t& command) {
+  const std::int64_t now = utime_now();
+  owner_.order({command.command_id, command.action == scan_command_t::START, command.kind,
+                command.longest_duration},
+               now, camera_trouble_);
+  follow_scan(now);
+}
+
+void SensorCaptureApp::take_camera_command(const camera_command_t& command) {
+  if (std::find(known_commands_.begin(), known_commands_.end(), command.command_id) !=
+      known_commands_.end())
+    return;
+  known_commands_.push_back(command.command_id);
+  if (known_commands_.size() > kCommandsRemembered) known_commands_.pop_front();
+  if (owner_.scanning() || !found_) {
+    spdlog::warn("camera command {} is refused: {}", command.command_id,
+                 found_ ? "a scan is running" : camera_trouble_);
+    return;
+  }
+  if (command_) end_command("another has come");
+  if (command.images == 0) return;  // back to the configured settings
+  CameraSettings settings{settings_.exposure_us, settings_.gain_db, false};
+  if (command.exposure_us > 0) settings.exposure_us = command.exposure_us;
+  if (command.gain_db >= 0) settings.gain_db = command.gain_db;
+  settings.laser_on = command.laser == camera_command_t::LASER_ON;
+  const std::int64_t now = utime_now();
+  command_ = CommandedImages{command.command_id, settings, last_ticket_ + 1, command.images,
+                             now + seconds_to_us(settings_.longest_scan_s)};
+  ask_for(settings, now);
+}
+
+void SensorCaptureApp::end_command(const std::string& why) {
+  spdlog::warn("camera command {} ends, {} images were not taken: {}", command_->command_id,
+               command_->left, why);
+  command_.reset();
+}
+
+// Lit in scans, and where a camera command asks for it.
+CameraSettings SensorCaptureApp::wanted_settings() const {
+  if (command_) return command_->settings;
+  return {settings_.exposure_us, settings_.gain_db, owner_.laser_wanted()};
+}
+
+void SensorCaptureApp::ask_for(const CameraSettings& settings, std::int64_t now) {
+  asked_ = settings;
+  timeline_.requested(++last_ticket_, settings, now);
+  source_->request(last_ticket_, settings);
+}
+
+image_t SensorCaptureApp::make_image(const Frame& frame, std::int64_t begin_utime,
+                                     const SettingsTimeline::InForce& in_force) const {
+  image_t image{};
+  image.utime = begin_utime + static_cast<std::int64_t>(in_force.settings.exposure_us / 2);
+  image.run_id = run_id_;
+  image.seq = frame.seq;
+  image.scan_index = -1;
+  image.width = static_cast<std::int16_t>(frame.width);
+  image.height = static_cast<std::int16_t>(frame.height);
+  image.offset_u = static_cast<std::int16_t>(frame.offset_u);
+  image.offset_v = static_cast<std::int16_t>(frame.offset_v);
+  image.sensor_width = static_cast<std::int16_t>(frame.sensor_width);
+  image.sensor_height = static_cast<std::int16_t>(frame.sensor_height);
+  image.exposure_us = in_force.settings.exposure_us;
+  image.gain_db = in_force.settings.gain_db;
+  image.laser_on = in_force.lit;
+  image.device_time_ns = frame.device_time_ns;
+  image.arrival_utime = frame.arrival_utime;
+  image.encoding = image_t::MONO8;
+  image.incomplete = frame.incomplete;
+  return image;
+}
+
+void SensorCaptureApp::publish_image(image_t& image, Frame& frame, const Membership& membership,
+                                     std::int64_t command_id) {
+  image.scan_id = membership.scan_id;
+  image.scan_index = membership.scan_index;
+  image.command_id = command_id;
+  if (!frame.pixels.empty() && settings_.encoding == "png") {
+    image.encoding = image_t::PNG;
+    image.data = png_of(frame.pixels, frame.width, frame.height);
+  } else {
+    image.data = std::move(frame.pixels);
+  }
+  image.size = static_cast<std::int32_t>(image.data.size());
+  bus_.publish(instance_.sensor_channel("IMAGE"), image);
+}
+
+void SensorCaptureApp::publish_preview(const image_t& image, const Frame& frame) {
+  const Preview small = reduce_by_maximum(frame.pixels, frame.width, frame.height, kPreviewPixels);
+  image_t preview = image;
+  preview.width = static_cast<std::int16_t>(small.width);
+  preview.height = static_cast<std::int16_t>(small.height);
+  preview.size = static_cast<std::int32_t>(small.pixels.size());
+  preview.data = small.pixels;
+  bus_.publish(instance_.sensor_channel("PREVIEW"), preview);
+  next_preview_ = steady_now() + kPreviewPeriod;
+}
+
+void SensorCaptureApp::publish_scan(std::int64_t now) {
+  const ScanState& state = owner_.state();
+  scan_t message{};
+  message.utime = now;
+  message.run_id = run_id_;
+  message.state = static_cast<std::int8_t>(state.phase);
+  message.scan_id = message.begin_utime = state.scan.scan_id;
+  message.command_id = state.command_id;
+  message.kind = state.scan.kind;
+  message.end_utime = state.scan.end_utime;
+  message.first_seq = state.scan.first_seq;
+  message.last_seq = state.scan.last_seq;
+  message.images = state.scan.images;
+  message.lost = state.scan.lost;
+  message.end_reason = state.scan.end_reason;
+  message.refused_command_id = state.refused_command_id;
+  message.refusal = state.refusal;
+  message.previous_scan_id = state.previous.scan_id;
+  message.previous_kind = state.previous.kind;
+  message.previous_end_utime = state.previous.end_utime;
+  message.previous_last_seq = state.previous.last_seq;
+  message.previous_images = state.previous.images;
+  bus_.publish(instance_.sensor_channel("SCAN"), message);
+  told_revision_ = owner_.revision();
+  next_scan_state_ = steady_now() + kScanStatePeriod;
+}
+
+Health SensorCaptureApp::health() const {
+  Health health;
+  const SourceCounts counts = source_->counts();
+  health.received = counts.frames;
+  health.lost = counts.incomplete + counts.lost;
+  health.last_error = error_;
+  if (starting_) {
+    health.state = service_status_t::STARTING;
+  } else if (!found_) {
+    health.state = service_status_t::FAULT;
+    health.last_error = camera_trouble_;
+  } else if (!error_.empty()) {
+    health.state = service_status_t::DEGRADED;
+  }
+  return health;
+}
+
+}  // namespace arcstart
