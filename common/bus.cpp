@@ -195,10 +195,12 @@ void Bus::wake() {
 
 void Bus::publish_bytes(const std::string& channel, const Bytes& bytes) {
   if (transport_of(channel).lcm.publish(channel, bytes.data(),
-                                        static_cast<unsigned int>(bytes.size())) != 0)
-    throw BusError(channel +
-                   ": the network takes no message: is there still a route for multicast?");
-  ++sent_;
+                                        static_cast<unsigned int>(bytes.size())) == 0) {
+    ++sent_;
+    return;
+  }
+  const std::lock_guard lock(mutex_);
+  last_error_ = channel + ": the network took no message: is there still a route for multicast?";
 }
 
 void Bus::note_undecodable(const std::string& channel, const std::string& why) {

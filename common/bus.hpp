@@ -103,7 +103,8 @@ class Bus {
     message.encode(bytes.data(), 0, static_cast<int>(bytes.size()));
     publish_bytes(channel, bytes);
   }
-  // Throws BusError where the kernel takes no packet (no route).
+  // What the kernel does not take (no route any more) is told by last_error(): a network that goes
+  // for a moment ends no service.
   void publish_bytes(const std::string& channel, const Bytes& bytes);
 
   // Waits for a message, a wake() or the end of the time, then handles all that waits. True where a
@@ -117,7 +118,7 @@ class Bus {
   std::int64_t sent() const { return sent_; }
   std::int64_t undecodable() const { return undecodable_; }
   std::int64_t overflowed() const { return overflowed_; }  // fell over a full queue
-  std::string last_error() const;  // of undecodable or overflowed, empty for none
+  std::string last_error() const;                          // of what was not taken in or not sent
   std::string buffer_warning() const {
     return buffer_warning_;
   }  // empty where the kernel gave the buffer asked for

@@ -19,6 +19,8 @@
 namespace arcstart {
 namespace {
 
+constexpr std::int64_t kLossIsNews = 10'000'000;  // us: so long after a loss the state is DEGRADED
+
 volatile std::sig_atomic_t end_asked = 0;
 void ask_for_end(int) { end_asked = 1; }
 
@@ -61,7 +63,7 @@ std::string host_name() {
 }
 
 service_status_t make_status(const ServiceContext& context, const ServiceDescription& description,
-                             const Health& health) {
+                             const Health& health, bool losing) {
   const Bus& bus = context.bus;
   service_status_t status{};
   status.utime = utime_now();
@@ -77,8 +79,7 @@ service_status_t make_status(const ServiceContext& context, const ServiceDescrip
   status.sent = bus.sent();
   status.lost = health.lost + bus.overflowed();
   status.undecodable = bus.undecodable() + health.undecodable;
-  if (status.state == service_status_t::RUNNING &&
-      (status.lost > 0 || !bus.buffer_warning().empty()))
+  if (status.state == service_status_t::RUNNING && (losing || !bus.buffer_warning().empty()))
     status.state = service_status_t::DEGRADED;
   status.oldest_age = health.oldest_age;
   read_memory(status.memory, status.peak_memory);
@@ -89,7 +90,7 @@ service_status_t make_status(const ServiceContext& context, const ServiceDescrip
 
 void run_loop(ServiceContext& context, const ServiceDescription& description, App& app) {
   const std::string channel = status_channel(context.instance, description);
-  std::int64_t next_status = 0;
+  std::int64_t next_status = 0, lost = 0, last_loss = 0;
   Health told;
   notify_systemd("READY=1");
   while (!end_asked) {
@@ -97,18 +98,23 @@ void run_loop(ServiceContext& context, const ServiceDescription& description, Ap
     app.tick(utime_now());
     notify_systemd("WATCHDOG=1");
     const Health health = app.health();
+    if (const std::int64_t now_lost = health.lost + context.bus.overflowed(); now_lost != lost) {
+      lost = now_lost;
+      last_loss = steady_now();
+    }
+    const bool losing = last_loss != 0 && steady_now() - last_loss < kLossIsNews;
     const bool changed = health.state != told.state || health.last_error != told.last_error;
     if (changed && !health.last_error.empty()) spdlog::warn("{}", health.last_error);
     if (changed && health.last_error.empty() && !told.last_error.empty())
       spdlog::info("well again");
     if (!changed && steady_now() < next_status) continue;
-    context.bus.publish(channel, make_status(context, description, health));
+    context.bus.publish(channel, make_status(context, description, health, losing));
     next_status = steady_now() + 1'000'000;
     told = health;
   }
   Health last = app.health();
   last.state = service_status_t::STOPPING;
-  context.bus.publish(channel, make_status(context, description, last));
+  context.bus.publish(channel, make_status(context, description, last, false));
   notify_systemd("STOPPING=1");
 }
 
