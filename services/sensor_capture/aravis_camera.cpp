@@ -234,62 +234,6 @@ void AravisCamera::switch_laser(bool on) {
   in_force_.laser_on = on;
 }
 
-std::optional<AravisCamera::NumberedFrame> AravisCamera::next() {
-  while (ArvBuffer* buffer = arv_stream_try_pop_buffer(stream_.get())) {
-    // A buffer without its leader carries what it carried before: both are cleared below.
-    const auto stamp = arv_buffer_get_timestamp(buffer);
-    const auto arrival = arv_buffer_get_system_timestamp(buffer);
-    const bool first = std::exchange(first_frame_, false);
-    NumberedFrame numbered{arv_buffer_get_frame_id(buffer), {}};
-    Frame& frame = numbered.frame;
-    if (stamp != 0 && !first) {
-      frame.device_time_ns = static_cast<std::int64_t>(stamp);
-      frame.arrival_utime = static_cast<std::int64_t>(arrival / 1000);
-      frame.sensor_width = sensor_width_;
-      frame.sensor_height = sensor_height_;
-      frame.incomplete = incomplete_reason(buffer);
-      if (frame.incomplete.empty()) {
-        arv_buffer_get_image_region(buffer, &frame.offset_u, &frame.offset_v, &frame.width,
-                                    &frame.height);
-        std::size_t size = 0;
-        const auto* pixels = static_cast<const std::uint8_t*>(arv_buffer_get_data(buffer, &size));
-        const auto count =
-            static_cast<std::size_t>(frame.width) * static_cast<std::size_t>(frame.height);
-        if (size >= count && count > 0)
-          frame.pixels.assign(pixels, pixels + count);
-        else
-          frame.incomplete = "fewer bytes than width x height";
-      }
-    }
-    arv_buffer_set_timestamp(buffer, 0);
-    arv_buffer_set_system_timestamp(buffer, 0);
-    arv_stream_push_buffer(stream_.get(), buffer);
-    // The first frame after a start may be one that was cut; one without a stamp never began: the
-    // gap in the camera's count shows it.
-    if (stamp != 0 && !first) return numbered;
-  }
-  return std::nullopt;
-}
-
-std::string AravisCamera::incomplete_reason(ArvBuffer* buffer) const {
-  switch (arv_buffer_get_status(buffer)) {
-    case ARV_BUFFER_STATUS_SUCCESS:
-      return arv_buffer_get_image_pixel_format(buffer) == ARV_PIXEL_FORMAT_MONO_8
-                 ? ""
-                 : "the camera sends another pixel format than Mono8";
-    case ARV_BUFFER_STATUS_TIMEOUT:
-      return "packets did not come in time";
-    case ARV_BUFFER_STATUS_MISSING_PACKETS:
-      return "packets are missing";
-    case ARV_BUFFER_STATUS_SIZE_MISMATCH:
-      return "the frame does not fit its buffer";
-    case ARV_BUFFER_STATUS_ABORTED:
-      return "the camera was stopped";
-    default:
-      return "its packets are out of order";
-  }
-}
-
 // Aravis' own heartbeat comes once a second, too seldom for a timeout that keeps the laser dark.
 void AravisCamera::keep_alive() {
   const auto interval = std::chrono::milliseconds(settings_.heartbeat_ms / 4);
@@ -317,18 +261,6 @@ void AravisCamera::give_up(const std::string& why) {
   }
   ended_.notify_all();
   notify_();
-}
-
-std::string AravisCamera::statistics() const {
-  guint64 completed = 0, failures = 0, underruns = 0;
-  arv_stream_get_statistics(stream_.get(), &completed, &failures, &underruns);
-  const auto info = [&](const char* name) {
-    return arv_stream_get_info_uint64_by_name(stream_.get(), name);
-  };
-  return fmt::format(
-      "{} frames complete, {} failed, {} without a buffer, {} packets missing, {} "
-      "sent again",
-      completed, failures, underruns, info("n_missing_packets"), info("n_resent_packets"));
 }
 
 }  // namespace arcstart

@@ -15,9 +15,7 @@
 #include "services/sensor_capture/sensor_capture_settings.hpp"
 
 // Aravis' own, opaque here.
-typedef struct _ArvBuffer ArvBuffer;
 typedef struct _ArvCamera ArvCamera;
-typedef struct _ArvDevice ArvDevice;
 typedef struct _ArvStream ArvStream;
 
 namespace arcstart {
@@ -75,7 +73,6 @@ class AravisCamera {
   void start();
   void switch_laser(bool on);
   void keep_alive();
-  std::string incomplete_reason(ArvBuffer* buffer) const;
 
   SensorCaptureSettings settings_;
   std::function<void()> notify_;

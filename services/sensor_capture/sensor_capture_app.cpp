@@ -1,14 +1,12 @@
 #include "services/sensor_capture/sensor_capture_app.hpp"
 
-#include <fmt/format.h>
 #include <spdlog/spdlog.h>
 
 #include <algorithm>
-#include <opencv2/imgcodecs.hpp>
 
 #include "common/geometry.hpp"
 #include "common/time.hpp"
-#include "services/sensor_capture/preview.hpp"
+#include "services/sensor_capture/capture_messages.hpp"
 
 namespace arcstart {
 namespace {
@@ -17,25 +15,12 @@ constexpr std::int64_t kPreviewPeriod = 500'000;
 constexpr std::int64_t kScanStatePeriod = 200'000;
 constexpr std::int64_t kErrorIsTold = 10'000'000;
 constexpr std::int64_t kHeldBack = 5'000;  // us that a better known clock may cost
-constexpr int kPreviewPixels = 49'000;     // with its header at most 50 KB
 constexpr std::size_t kCommandsRemembered = 256;
-
-static_assert(static_cast<int>(ScanState::Phase::kIdle) == scan_t::IDLE &&
-              static_cast<int>(ScanState::Phase::kScanning) == scan_t::SCANNING &&
-              static_cast<int>(ScanState::Phase::kEnded) == scan_t::ENDED);
 
 ScanOwnerSettings owner_settings(const SensorCaptureSettings& settings) {
   return {settings.longest_scan_s,
           settings.end_when_still,
           {settings.still_duration_s, settings.still_distance_mm, settings.still_angle_deg}};
-}
-
-std::vector<std::uint8_t> png_of(std::vector<std::uint8_t>& pixels, int width, int height) {
-  std::vector<std::uint8_t> bytes;
-  // The fastest level: a stripe on black compresses well at any.
-  cv::imencode(".png", cv::Mat(height, width, CV_8U, pixels.data()), bytes,
-               {cv::IMWRITE_PNG_COMPRESSION, 1});
-  return bytes;
 }
 
 }  // namespace
@@ -101,8 +86,12 @@ void SensorCaptureApp::take(Frame& frame, std::int64_t now) {
   const Membership membership = owner_.frame(
       {frame.seq, begin, begin + exposure, in_force.lit && in_force.certain, complete});
 
-  image_t image = make_image(frame, begin, in_force);
-  if (complete && steady_now() >= next_preview_) publish_preview(image, frame);
+  image_t image = make_image_message(frame, begin, in_force);
+  image.run_id = run_id_;
+  if (complete && steady_now() >= next_preview_) {
+    bus_.publish(instance_.sensor_channel("PREVIEW"), make_preview_message(image, frame));
+    next_preview_ = steady_now() + kPreviewPeriod;
+  }
   if (membership.scan_id != 0) {
     publish_image(image, frame, membership, 0);
   } else if (command_ && complete && in_force.certain && in_force.ticket >= command_->ticket) {
@@ -195,77 +184,19 @@ void SensorCaptureApp::ask_for(const CameraSettings& settings, std::int64_t now)
   source_->request(last_ticket_, settings);
 }
 
-image_t SensorCaptureApp::make_image(const Frame& frame, std::int64_t begin_utime,
-                                     const SettingsTimeline::InForce& in_force) const {
-  image_t image{};
-  image.utime = begin_utime + static_cast<std::int64_t>(in_force.settings.exposure_us / 2);
-  image.run_id = run_id_;
-  image.seq = frame.seq;
-  image.scan_index = -1;
-  image.width = static_cast<std::int16_t>(frame.width);
-  image.height = static_cast<std::int16_t>(frame.height);
-  image.offset_u = static_cast<std::int16_t>(frame.offset_u);
-  image.offset_v = static_cast<std::int16_t>(frame.offset_v);
-  image.sensor_width = static_cast<std::int16_t>(frame.sensor_width);
-  image.sensor_height = static_cast<std::int16_t>(frame.sensor_height);
-  image.exposure_us = in_force.settings.exposure_us;
-  image.gain_db = in_force.settings.gain_db;
-  image.laser_on = in_force.lit;
-  image.device_time_ns = frame.device_time_ns;
-  image.arrival_utime = frame.arrival_utime;
-  image.encoding = image_t::MONO8;
-  image.incomplete = frame.incomplete;
-  return image;
-}
-
 void SensorCaptureApp::publish_image(image_t& image, Frame& frame, const Membership& membership,
                                      std::int64_t command_id) {
   image.scan_id = membership.scan_id;
   image.scan_index = membership.scan_index;
   image.command_id = command_id;
-  if (!frame.pixels.empty() && settings_.encoding == "png") {
-    image.encoding = image_t::PNG;
-    image.data = png_of(frame.pixels, frame.width, frame.height);
-  } else {
-    image.data = std::move(frame.pixels);
-  }
-  image.size = static_cast<std::int32_t>(image.data.size());
+  put_pixels(image, frame, settings_.encoding == "png");
   bus_.publish(instance_.sensor_channel("IMAGE"), image);
 }
 
-void SensorCaptureApp::publish_preview(const image_t& image, const Frame& frame) {
-  const Preview small = reduce_by_maximum(frame.pixels, frame.width, frame.height, kPreviewPixels);
-  image_t preview = image;
-  preview.width = static_cast<std::int16_t>(small.width);
-  preview.height = static_cast<std::int16_t>(small.height);
-  preview.size = static_cast<std::int32_t>(small.pixels.size());
-  preview.data = small.pixels;
-  bus_.publish(instance_.sensor_channel("PREVIEW"), preview);
-  next_preview_ = steady_now() + kPreviewPeriod;
-}
-
 void SensorCaptureApp::publish_scan(std::int64_t now) {
-  const ScanState& state = owner_.state();
-  scan_t message{};
+  scan_t message = make_scan_message(owner_.state());
   message.utime = now;
   message.run_id = run_id_;
-  message.state = static_cast<std::int8_t>(state.phase);
-  message.scan_id = message.begin_utime = state.scan.scan_id;
-  message.command_id = state.command_id;
-  message.kind = state.scan.kind;
-  message.end_utime = state.scan.end_utime;
-  message.first_seq = state.scan.first_seq;
-  message.last_seq = state.scan.last_seq;
-  message.images = state.scan.images;
-  message.lost = state.scan.lost;
-  message.end_reason = state.scan.end_reason;
-  message.refused_command_id = state.refused_command_id;
-  message.refusal = state.refusal;
-  message.previous_scan_id = state.previous.scan_id;
-  message.previous_kind = state.previous.kind;
-  message.previous_end_utime = state.previous.end_utime;
-  message.previous_last_seq = state.previous.last_seq;
-  message.previous_images = state.previous.images;
   bus_.publish(instance_.sensor_channel("SCAN"), message);
   told_revision_ = owner_.revision();
   next_scan_state_ = steady_now() + kScanStatePeriod;

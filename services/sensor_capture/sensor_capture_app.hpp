@@ -50,11 +50,8 @@ class SensorCaptureApp : public App {
   CameraSettings wanted_settings() const;
   void ask_for(const CameraSettings& settings, std::int64_t now);
   void follow_scan(std::int64_t now);
-  image_t make_image(const Frame& frame, std::int64_t begin_utime,
-                     const SettingsTimeline::InForce& in_force) const;
   void publish_image(image_t& image, Frame& frame, const Membership& membership,
                      std::int64_t command_id);
-  void publish_preview(const image_t& image, const Frame& frame);
   void publish_scan(std::int64_t now);
 
   Bus& bus_;
