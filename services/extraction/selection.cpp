@@ -8,7 +8,7 @@ namespace arcstart {
 namespace {
 
 // Worth and cost are in columns of clean stripe.
-constexpr float kBreakCost = 12;         // to leave a line for any other place
+constexpr float kBreakCost = 20;         // to leave a line for any other place
 constexpr int kNear = 4;                 // columns within which a path goes on as on one line
 constexpr float kLongestNearJump = 6;    // px
 constexpr int kFar = 100;                // columns over which a line may be found again after a gap
@@ -18,6 +18,8 @@ constexpr float kSameLine = 4;           // px: nearer points of a column belong
 constexpr float kOutshone = 1.7f;        // times as strong
 constexpr int kReflectionWindow = 100;   // points of the chain to each side
 constexpr int kReflectionEvidence = 80;  // points at least
+
+constexpr float kWider = 0.6f, kNarrower = 1.2f;  // logarithm of a width's ratio to the usual that is unlikely
 
 using Weighted = std::pair<float, float>;  // value, weight
 
@@ -125,7 +127,9 @@ void Selector::rate(const std::vector<float>& widths) {
   for (Candidate& c : candidates_) {
     float likeness = 0.7f;
     if (widths[c.point] > 0) {
-      const float difference = std::log(widths[c.point] / usual_width) / 0.6f;
+      // A blob is wider; narrower is the stripe itself where it is dim.
+      float difference = std::log(widths[c.point] / usual_width);
+      difference /= difference > 0 ? kWider : kNarrower;
       likeness = std::exp(-0.5f * difference * difference);
     }
     const float strength = std::sqrt(std::min(1.0f, c.curvature / usual_curvature));

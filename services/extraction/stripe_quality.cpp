@@ -22,11 +22,12 @@ double grey_at(const GreyImage& image, double u, double v) {
          dv * ((1 - du) * image.at(column, below) + du * image.at(right, below));
 }
 
-// Share of a Gaussian's variance that is left when it is cut off at this share of its height.
-double variance_above(double share) {
-  const double a = std::sqrt(-2 * std::log(share));
-  const double density = share / std::sqrt(2 * std::numbers::pi);
-  return 1 - 2 * a * density / std::erf(a / std::numbers::sqrt2);
+// Where the profile falls below the level, going from `at` by `step`; between the samples. At most
+// the last sample.
+double crossing(const double* profile, int size, int at, int step, double level) {
+  while (at + step >= 0 && at + step < size && profile[at + step] > level) at += step;
+  if (at + step < 0 || at + step >= size) return at;
+  return at + step * (profile[at] - level) / (profile[at] - profile[at + step]);
 }
 
 }  // namespace
@@ -57,9 +58,10 @@ double noise_of(const GreyImage& image) {
 double profile_width(const GreyImage& image, const RidgePoint& point, double sigma, double noise) {
   constexpr int kMost = 64;
   const int reach = std::min(kMost, static_cast<int>(std::ceil(5 * sigma)) + 2);
-  std::array<double, 2 * kMost + 1> profile;
+  std::array<double, 2 * kMost + 1> raw;
   for (int k = -reach; k <= reach; ++k)
-    profile[k + reach] = grey_at(image, point.u + k * point.normal_u, point.v + k * point.normal_v);
+    raw[k + reach] = grey_at(image, point.u + k * point.normal_u, point.v + k * point.normal_v);
+  std::array<double, 2 * kMost + 1> profile = raw;
 
   // The sides' level: the median of the outer quarter of each, joined by a line.
   const int size = 2 * reach + 1, quarter = std::max(2, reach / 4);
@@ -75,22 +77,20 @@ double profile_width(const GreyImage& image, const RidgePoint& point, double sig
   const int near = std::max(1, static_cast<int>(sigma));
   const auto top =
       std::max_element(profile.begin() + reach - near, profile.begin() + reach + near + 1);
-  const double height = *top;
-  if (height <= 3 * noise) return 0;
-  const double floor = std::clamp(2 * noise / height, 0.1, 0.5);
-  int begin = static_cast<int>(top - profile.begin()), end = begin + 1;
-  while (begin > 0 && profile[begin - 1] > floor * height) --begin;
-  while (end < size && profile[end] > floor * height) ++end;
-  double sum = 0, first = 0, second = 0;
-  for (int i = begin; i < end; ++i) {
-    sum += profile[i];
-    first += profile[i] * i;
-    second += profile[i] * i * i;
-  }
-  const double variance = (second - first * first / sum) / sum / variance_above(floor);
+  if (*top <= 3 * noise) return 0;
+  const int at = static_cast<int>(top - profile.begin());
+  const double half_width = 0.5 * (crossing(profile.data(), size, at, 1, *top / 2) -
+                                   crossing(profile.data(), size, at, -1, *top / 2));
+  int white = 0;
+  for (int i = at; i < size && raw[i] > 254; ++i) ++white;
+  for (int i = at - 1; i >= 0 && raw[i] > 254; --i) ++white;
+  // Half the width at half the height is 1.177 standard deviations of a Gaussian and sqrt(3) of a
+  // bar, to which a clipped Gaussian comes the nearer, the more of it is clipped.
+  const double flat = std::min(1.0, white / (2 * half_width));
+  const double width = half_width * ((1 - flat) / 1.1774 + flat / std::numbers::sqrt3);
   constexpr double kPixel = 1.0 / 12,
                    kInterpolation = 1.0 / 6;  // what they add to a profile's variance
-  return std::sqrt(std::max(variance - kPixel - kInterpolation, 0.01));
+  return std::sqrt(std::max(width * width - kPixel - kInterpolation, 0.01));
 }
 
 double centre_deviation(double curvature, double sigma, double noise) {

@@ -13,10 +13,9 @@ namespace arcstart {
 double noise_of(const GreyImage& image);
 
 // Standard deviation of the stripe's profile across the point, px; 0 where it has none that stands
-// out from its surroundings by more than three times the noise. The profile is what rises above the
-// line between the grey values of both sides, taken from its top down to a tenth (or to twice the
-// noise), with what is cut off there and the pixel's own width corrected for a Gaussian. sigma: of
-// the kernels, sets how far the sides are.
+// out from its surroundings by more than three times the noise. From its width at half its height
+// above the line that joins the grey values on both sides: a halo does not count; a top clipped at
+// white is allowed for. sigma: of the kernels, sets how far away the sides are.
 double profile_width(const GreyImage& image, const RidgePoint& point, double sigma, double noise);
 
 // White-noise law of the centre: 0.1995 noise (w^2 + s^2)^(3/2) / (A w s^2), where A w / (w^2 +

@@ -1,0 +1,277 @@
+#include <algorithm>
+#include <catch2/catch.hpp>
+#include <cmath>
+#include <opencv2/imgproc.hpp>
+
+#include "services/extraction/ridge.hpp"
+#include "services/extraction/stripe_quality.hpp"
+#include "tests/extraction/opencv_judge.hpp"
+#include "tests/extraction/scene_renderer.hpp"
+#include "tests/extraction/stripe_image.hpp"
+
+using namespace arcstart;
+
+namespace {
+
+std::vector<RidgePoint> detect(const cv::Mat& grey, double sigma, double least_curvature) {
+  RidgeDetector detector;
+  std::vector<RidgePoint> points;
+  detector.detect(view_of(grey), gaussian_kernels(sigma), least_curvature, points);
+  return points;
+}
+
+// A stripe through the middle of a square image, at an angle, moved sideways by a fraction of a
+// pixel.
+struct Line {
+  double angle, shift;
+  static constexpr int kSize = 240;
+  double tu() const { return std::cos(angle); }
+  double tv() const { return std::sin(angle); }
+  double distance(double u, double v) const {
+    return (v - kSize / 2) * tu() - (u - kSize / 2) * tv() - shift;
+  }
+  cv::Mat draw(double amplitude, double width) const {
+    cv::Mat light = darkness(kSize, kSize);
+    const double u = kSize / 2 - shift * tv(), v = kSize / 2 + shift * tu();
+    add_stripe(light, u - 400 * tu(), v - 400 * tv(), u + 400 * tu(), v + 400 * tv(), amplitude,
+               width);
+    return light;
+  }
+};
+
+void check_same_as_judge(const cv::Mat& grey, double sigma, double least_curvature) {
+  const GaussianKernels kernels = gaussian_kernels(sigma);
+  const auto points = detect(grey, sigma, least_curvature);
+  const auto judge =
+      judge_ridge_points(grey, kernels, least_curvature, RidgeDetector::margin(kernels));
+  const Verdict verdict = compare(judge, points);
+  INFO("sigma " << sigma << ", judged " << verdict.judged << ", found " << points.size());
+  CHECK(verdict.missing == 0);
+  CHECK(verdict.extra == 0);
+  CHECK(verdict.largest_deviation < 0.001);
+}
+
+}  // namespace
+
+TEST_CASE("a Gaussian stripe's centre, normal and curvature are those of the closed form") {
+  const double angle = GENERATE(0.0, 0.17, 0.6, 0.785398, 1.2, 1.5708, 2.2, 2.9);
+  const double width = GENERATE(1.65, 3.0), sigma = GENERATE(1.5, 2.5, 4.0);
+  const double amplitude = 200;
+  const Line line{angle, 0.3};
+  const cv::Mat grey = expose(line.draw(amplitude, width), 0);
+  const double variance =
+      width * width + sigma * sigma + 2.0 / 12;  // a pixel's in image and kernel
+  const double curvature = amplitude * width / std::pow(variance, 1.5);
+  const auto points = detect(grey, sigma, 0.2 * curvature);
+  CHECK(points.size() > 200);
+  for (const RidgePoint& p : points) {
+    const int from_border =
+        std::min({p.column, p.row, Line::kSize - 1 - p.column, Line::kSize - 1 - p.row});
+    if (from_border < 4 * sigma) continue;  // nearer, the mirrored image bends the line a little
+    // One Newton step from the pixel's centre, t beside the line, leaves t^3 / variance.
+    const double start = std::abs(line.distance(p.column, p.row));
+    REQUIRE(std::abs(line.distance(p.u, p.v)) < 0.015 + 1.2 * std::pow(start, 3) / variance);
+    REQUIRE(std::abs(p.normal_u * line.tu() + p.normal_v * line.tv()) < 0.02);
+    // The Hessian is taken at the pixel's centre, a fraction of a pixel beside the line.
+    const double beside = std::pow(line.distance(p.column, p.row), 2) / variance;
+    REQUIRE(p.curvature == Approx(curvature * (1 - beside) * std::exp(-beside / 2)).epsilon(0.02));
+    REQUIRE(std::hypot(p.normal_u, p.normal_v) == Approx(1).margin(1e-5));
+    REQUIRE(std::abs(p.u - p.column) <= 0.5001);
+    REQUIRE(std::abs(p.v - p.row) <= 0.5001);
+  }
+}
+
+TEST_CASE("points come in raster order, none nearer to the border than the margin") {
+  const Line line{0.5, 0.1};
+  const double sigma = 2;
+  const auto points = detect(expose(line.draw(150, 2), 3), sigma, 0.3);
+  REQUIRE(points.size() > 100);
+  for (std::size_t i = 1; i < points.size(); ++i)
+    REQUIRE(std::pair(points[i - 1].row, points[i - 1].column) <
+            std::pair(points[i].row, points[i].column));
+  for (const RidgePoint& p : points)
+    REQUIRE(std::min({p.column, p.row, Line::kSize - 1 - p.column, Line::kSize - 1 - p.row}) >= 4);
+}
+
+TEST_CASE("a line is found where the kernels reach over the image's border, without bend") {
+  const Line line{0.3, 0};
+  const auto points = detect(expose(line.draw(200, 2), 0), 4, 1);
+  int near_border = 0;
+  for (const RidgePoint& p : points) {
+    near_border += p.column < 14;
+    REQUIRE(std::abs(line.distance(p.u, p.v)) < 0.04);
+  }
+  CHECK(near_border >= 5);
+}
+
+TEST_CASE("strength is largest where sigma is the stripe's width, and never moves a centre") {
+  const double width = GENERATE(1.5, 2.5, 4.0);
+  const Line line{0.2, 0.25};
+  const cv::Mat grey = expose(line.draw(200, width), 0);
+  const auto strength = [&](double sigma, double exponent) {
+    const auto points = detect(grey, sigma, 0.3);
+    std::vector<float> curvatures;
+    for (const RidgePoint& p : points) curvatures.push_back(p.curvature);
+    std::sort(curvatures.begin(), curvatures.end());
+    return strength_factor(sigma, exponent) * curvatures.at(curvatures.size() / 2);
+  };
+  const double seen = std::sqrt(width * width + 1.0 / 12);
+  double best = 0, highest = 0, best_of_two = 0, highest_of_two = 0;
+  for (double sigma = 0.5 * width; sigma < 2 * width; sigma *= 1.03) {
+    if (const double s = strength(sigma, 1.5); s > highest) highest = s, best = sigma;
+    if (const double s = strength(sigma, 2); s > highest_of_two)
+      highest_of_two = s, best_of_two = sigma;
+  }
+  CHECK(best == Approx(seen).epsilon(0.1));
+  CHECK(best_of_two == Approx(std::sqrt(2.0) * seen).epsilon(0.1));
+  CHECK(highest == Approx(200 / (std::pow(2, 1.5) * std::sqrt(width))).epsilon(0.08));
+}
+
+TEST_CASE("under white noise the centres scatter as the law says") {
+  const double angle = GENERATE(0.0, 0.4, 0.785398, 1.3), noise = GENERATE(2.0, 7.0);
+  const double width = 2.5, sigma = GENERATE(2.5, 3.5), amplitude = 140;
+  const Line line{angle, 0.3};
+  const cv::Mat light = line.draw(amplitude, width);
+  double squares = 0, law = 0;
+  int count = 0;
+  for (int seed = 1; seed <= 6; ++seed)
+    for (const RidgePoint& p : detect(expose(light, noise, seed), sigma, 2)) {
+      if (std::abs(line.distance(p.u, p.v)) > 2) continue;
+      squares += std::pow(line.distance(p.u, p.v), 2);
+      law += centre_deviation(p.curvature, sigma, noise);
+      ++count;
+    }
+  REQUIRE(count > 1000);
+  const double rms = std::sqrt(squares / count);
+  CHECK(rms <= 1.15 * law / count + 0.003);
+  CHECK(rms >= 0.85 * law / count);
+  CHECK(law / count == Approx(0.1995 * noise * std::pow(width * width + sigma * sigma, 1.5) /
+                              (amplitude * width * sigma * sigma))
+                           .epsilon(0.05));
+}
+
+TEST_CASE("dark lines are not taken for bright ones") {
+  cv::Mat grey = expose(Line{0.4, 0}.draw(100, 2), 0);
+  const cv::Mat dark = 200 - grey;
+  for (const RidgePoint& p : detect(dark, 2, 0.5))
+    REQUIRE(std::abs(Line{0.4, 0}.distance(p.u, p.v)) > 3);  // the dark line's bright sides at most
+}
+
+TEST_CASE("the fast detector finds the same points as five sepFilter2D") {
+  cv::RNG random(3);
+  // Neither side a multiple of a block or of a tile.
+  cv::Mat noise(173, 229, CV_8U), gradient(200, 300, CV_8U), checkerboard(190, 250, CV_8U);
+  random.fill(noise, cv::RNG::UNIFORM, 0, 256);
+  for (int v = 0; v < gradient.rows; ++v)
+    for (int u = 0; u < gradient.cols; ++u)
+      gradient.at<std::uint8_t>(v, u) = static_cast<std::uint8_t>((u + v) / 2);
+  for (int v = 0; v < checkerboard.rows; ++v)
+    for (int u = 0; u < checkerboard.cols; ++u)
+      checkerboard.at<std::uint8_t>(v, u) = ((u / 13 + v / 13) % 2) != 0 ? 255 : 0;
+  cv::Mat pixels = checkerboard.clone();
+  for (int v = 0; v < pixels.rows; ++v)
+    for (int u = 0; u < pixels.cols; ++u)
+      pixels.at<std::uint8_t>(v, u) = ((u + v) % 2) != 0 ? 255 : 0;
+  const double sigma = GENERATE(1.2, 2.5, 5.0);
+  const double least = 1.8 / std::pow(sigma, 1.5);
+
+  SECTION("noise alone") { check_same_as_judge(noise, sigma, least); }
+  SECTION("faint noise") {
+    const cv::Mat faint = expose(darkness(301, 155, 60), 2.5);
+    check_same_as_judge(faint, sigma, least / 8);
+  }
+  SECTION("gradient") { check_same_as_judge(gradient, sigma, 0.02); }
+  SECTION("all white") {
+    check_same_as_judge(cv::Mat(120, 140, CV_8U, cv::Scalar(255)), sigma, 0.01);
+  }
+  SECTION("checkerboards") {
+    check_same_as_judge(checkerboard, sigma, least);
+    check_same_as_judge(pixels, sigma, least);
+  }
+  SECTION("a stripe just above the threshold, a dot, a step") {
+    cv::Mat light = darkness(260, 200, 20);
+    const double width = 2;
+    const double amplitude =
+        1.05 * least * std::pow(width * width + 1.0 / 12 + sigma * sigma, 1.5) / width;
+    add_stripe(light, -50, 60, 400, 75, amplitude, width);
+    light.at<float>(150, 101) = 255;
+    light.colRange(200, 260) += 150;
+    check_same_as_judge(expose(light, 0), sigma, least);
+    check_same_as_judge(expose(light, 1), sigma, least);
+  }
+  SECTION("typical and saturated scenes") {
+    SceneSettings settings = scene_settings(SceneKind::kTypical);
+    settings.width = 500;
+    settings.height = 400;
+    check_same_as_judge(render_scene(settings, 5).grey, sigma, least);
+    settings.amplitude = 420;
+    check_same_as_judge(render_scene(settings, 6).grey, sigma, least);
+  }
+}
+
+TEST_CASE("no second derivative exceeds the bound that rejects blocks") {
+  const double sigma = GENERATE(1.2, 2.1, 4.0);
+  const GaussianKernels kernels = gaussian_kernels(sigma);
+  const CurvatureBound bound = curvature_bound(kernels);
+  cv::RNG random(11);
+  // Images made to reach far: white where a line's kernel is positive, so that its curvature is the
+  // largest there can be.
+  std::vector<cv::Mat> images;
+  for (const double angle : {0.0, 0.35, 0.785398, 1.1}) {
+    cv::Mat image(121, 121, CV_8U);
+    for (int v = 0; v < image.rows; ++v)
+      for (int u = 0; u < image.cols; ++u)
+        image.at<std::uint8_t>(v, u) =
+            std::abs((v - 60) * std::cos(angle) - (u - 60) * std::sin(angle)) < sigma ? 255 : 0;
+    images.push_back(image);
+  }
+  cv::Mat noise(121, 121, CV_8U);
+  random.fill(noise, cv::RNG::UNIFORM, 0, 256);
+  images.push_back(noise);
+  cv::Mat patches(121, 121, CV_8U);
+  cv::resize(noise(cv::Rect(0, 0, 30, 30)), patches, patches.size(), 0, 0, cv::INTER_NEAREST);
+  images.push_back(patches);
+
+  const cv::Mat binomial =
+      (cv::Mat_<double>(1, 5) << 1 / 16.0, 4 / 16.0, 6 / 16.0, 4 / 16.0, 1 / 16.0);
+  double nearest = 0;
+  for (const cv::Mat& image : images) {
+    cv::Mat smooth, lowest, highest;
+    cv::sepFilter2D(image, smooth, CV_64F, binomial, binomial, {-1, -1}, 0, cv::BORDER_REFLECT_101);
+    const cv::Mat window = cv::Mat::ones(2 * bound.reach + 1, 2 * bound.reach + 1, CV_8U);
+    cv::erode(smooth, lowest, window);
+    cv::dilate(smooth, highest, window);
+    for (const JudgePoint& p :
+         judge_ridge_points(image, kernels, 1e-3, RidgeDetector::margin(kernels))) {
+      const double range = highest.at<double>(p.row, p.column) - lowest.at<double>(p.row, p.column);
+      REQUIRE(p.curvature <= bound.per_grey * range + bound.remainder);
+      nearest = std::max(nearest, p.curvature / (bound.per_grey * range + bound.remainder));
+    }
+  }
+  CHECK(nearest > (sigma > 3 ? 0.85 : sigma > 2 ? 0.65 : 0.25));  // and some come near it
+  CHECK(bound.remainder < 0.1 * bound.per_grey * 255);
+}
+
+TEST_CASE("blocks without a stripe are skipped") {
+  cv::Mat light = darkness(640, 480);
+  add_stripe(light, -10, 200, 650, 230, 150, 1.7);
+  const cv::Mat grey = expose(light, 1.5);
+  RidgeDetector detector;
+  std::vector<RidgePoint> points;
+  detector.detect(view_of(grey), gaussian_kernels(2.2), 0.55, points);
+  CHECK(points.size() > 600);
+  CHECK(detector.active_share() < 0.25);
+}
+
+TEST_CASE("images of any size are taken") {
+  const int width = GENERATE(1, 2, 3, 16, 17, 33), height = GENERATE(1, 2, 19, 40);
+  const cv::Mat grey(height, width, CV_8U, cv::Scalar(255));
+  CHECK(detect(grey, 2.5, 0.1).empty());
+  cv::Mat lit = cv::Mat::zeros(height, width, CV_8U);
+  lit.row(height / 2) = 255;
+  const auto points = detect(lit, 2.5, 0.1);
+  if (width > 19 && height > 19)
+    CHECK(points.size() == static_cast<std::size_t>(width) - 10);
+  else
+    CHECK(points.empty());
+}

@@ -1,0 +1,237 @@
+#include <algorithm>
+#include <catch2/catch.hpp>
+#include <cmath>
+
+#include "services/extraction/stripe_extractor.hpp"
+#include "services/extraction/stripe_quality.hpp"
+#include "tests/extraction/scene_renderer.hpp"
+#include "tests/extraction/stripe_image.hpp"
+
+using namespace arcstart;
+
+namespace {
+
+cv::Mat image_of(double amplitude, double width, double noise, double slope = 0.1,
+                 std::uint64_t seed = 1) {
+  cv::Mat light = darkness(600, 300);
+  add_stripe(light, -20, 120, 620, 120 + 640 * slope, amplitude, width);
+  return expose(light, noise, seed);
+}
+
+Stripe extract(const cv::Mat& grey, const ExtractionSettings& settings = {}) {
+  StripeExtractor extractor(settings);
+  return extractor.extract(view_of(grey));
+}
+
+std::vector<Centre> chosen(const Stripe& stripe) {
+  std::vector<Centre> centres;
+  for (const StripeCentre& c : stripe.centres)
+    if (c.chosen) centres.push_back({c.u, c.v});
+  return centres;
+}
+
+bool same(const Stripe& a, const Stripe& b) {
+  return a.sigma == b.sigma && a.noise == b.noise &&
+         std::equal(a.centres.begin(), a.centres.end(), b.centres.begin(), b.centres.end(),
+                    [](const StripeCentre& x, const StripeCentre& y) {
+                      return x.u == y.u && x.v == y.v && x.strength == y.strength &&
+                             x.width == y.width && x.deviation == y.deviation &&
+                             x.segment == y.segment && x.chosen == y.chosen && x.end == y.end;
+                    });
+}
+
+}  // namespace
+
+TEST_CASE("sigma follows the stripe's width, from the first image on") {
+  const double width = GENERATE(1.4, 1.7, 2.5, 4.0, 7.0);
+  const Stripe stripe = extract(image_of(160, width, 2));
+  CHECK(stripe.empty.empty());
+  CHECK(stripe.sigma == Approx(1.3 * width).epsilon(0.15));
+  std::vector<float> widths;
+  for (const StripeCentre& c : stripe.centres) widths.push_back(c.width);
+  REQUIRE(widths.size() > 500);
+  std::nth_element(widths.begin(), widths.begin() + 250, widths.end());
+  CHECK(widths[250] == Approx(width).epsilon(0.12));
+}
+
+TEST_CASE("a saturated stripe is a bar, and gets a sigma that finds its middle") {
+  const double half_width = GENERATE(5, 8);
+  cv::Mat light = darkness(600, 300);
+  for (int row = 0; row < light.rows; ++row)
+    for (int column = 0; column < light.cols; ++column) {
+      const double across = std::abs(row - 100.3 - 0.2 * column) * std::cos(std::atan(0.2));
+      light.at<float>(row, column) +=
+          static_cast<float>(400 / (1 + std::exp((across - half_width) / 0.7)));
+    }
+  const Stripe stripe = extract(expose(light, 2));
+  CHECK(stripe.sigma >= half_width / std::sqrt(3.0));
+  CHECK(stripe.sigma < 1.2 * half_width);
+  CHECK(stripe.saturated_share > 0.98);
+  REQUIRE(stripe.centres.size() > 550);
+  double squares = 0;
+  for (const StripeCentre& c : stripe.centres)
+    squares += std::pow((c.v - 100.3 - 0.2 * c.u) * std::cos(std::atan(0.2)), 2);
+  CHECK(std::sqrt(squares / stripe.centres.size()) < 0.05);
+}
+
+TEST_CASE("sigma follows slowly, and anew after a restart") {
+  StripeExtractor extractor(ExtractionSettings{});
+  const cv::Mat narrow = image_of(160, 1.6, 2), wide = image_of(160, 3.2, 2);
+  const Stripe first = extractor.extract(view_of(narrow));
+  const Stripe second = extractor.extract(view_of(wide));
+  CHECK(second.sigma == Approx(first.sigma).epsilon(0.1));  // what the image before asked for
+  Stripe later;
+  for (int i = 0; i < 25; ++i) later = extractor.extract(view_of(wide));
+  CHECK(later.sigma == Approx(1.3 * 3.2).epsilon(0.15));
+  extractor.restart();
+  CHECK(same(extractor.extract(view_of(narrow)), first));
+}
+
+TEST_CASE("a sigma that is set stays") {
+  ExtractionSettings settings;
+  settings.sigma_px = 2.5;
+  CHECK(extract(image_of(160, 1.6, 2), settings).sigma == 2.5f);
+  CHECK(extract(image_of(160, 4, 2), settings).sigma == 2.5f);
+}
+
+TEST_CASE("the strength's exponent never moves a centre") {
+  ExtractionSettings settings;
+  settings.sigma_px = 2.5;
+  const Stripe a = extract(image_of(160, 2, 2), settings);
+  settings.strength_exponent = 0;
+  settings.least_strength /= std::pow(2.5, 1.5);
+  const Stripe b = extract(image_of(160, 2, 2), settings);
+  REQUIRE(a.centres.size() == b.centres.size());
+  for (std::size_t i = 0; i < a.centres.size(); ++i) {
+    REQUIRE(a.centres[i].u == b.centres[i].u);
+    REQUIRE(a.centres[i].v == b.centres[i].v);
+    REQUIRE(a.centres[i].strength ==
+            Approx(std::pow(2.5, 1.5) * b.centres[i].strength).epsilon(1e-4));
+  }
+}
+
+TEST_CASE("the noise is that of the image") {
+  const double noise = GENERATE(0.0, 1.0, 2.5, 6.0);
+  const double expected = std::sqrt(noise * noise + 1.0 / 12);
+  CHECK(extract(image_of(150, 2, noise)).noise == Approx(expected).epsilon(0.1));
+}
+
+TEST_CASE("a centre's deviation tells its error") {
+  const auto check = [](const cv::Mat& grey, double slope, double lowest, double highest) {
+    const Stripe stripe = extract(grey);
+    double squares = 0, told = 0;
+    int count = 0;
+    for (const StripeCentre& c : stripe.centres) {
+      if (c.u < 20 || c.u > 580) continue;
+      squares += std::pow((c.v - 120 - (c.u + 20) * slope) * std::cos(std::atan(slope)), 2);
+      told += c.deviation * c.deviation;
+      ++count;
+    }
+    REQUIRE(count > 500);
+    CHECK(std::sqrt(squares / told) > lowest);
+    CHECK(std::sqrt(squares / told) < highest);
+  };
+  SECTION("white noise") { check(image_of(80, 2, 5), 0.1, 0.75, 1.25); }
+  SECTION("speckle, of which the white-noise law knows nothing") {
+    cv::Mat light = darkness(600, 300, 0), grain(300, 600, CV_32F);
+    add_stripe(light, -20, 120, 620, 184, 150, 2);
+    cv::RNG(4).fill(grain, cv::RNG::NORMAL, 0, 1);
+    cv::Mat blurred = grain.clone();  // a grain of 3 px: the mean of 3 x 3
+    for (int v = 1; v < 299; ++v)
+      for (int u = 1; u < 599; ++u)
+        blurred.at<float>(v, u) =
+            static_cast<float>(cv::mean(grain(cv::Rect(u - 1, v - 1, 3, 3)))[0]);
+    light = light.mul(1 + 0.45 * blurred) + 10;
+    check(expose(light, 1), 0.1, 0.6, 1.6);
+  }
+}
+
+TEST_CASE("a profile's width is that of the Gaussian drawn") {
+  const double width = GENERATE(1.3, 2.0, 3.5), angle = GENERATE(0.0, 0.5, 1.3);
+  cv::Mat light = darkness(200, 200);
+  const double tu = std::cos(angle), tv = std::sin(angle);
+  add_stripe(light, 100 - 200 * tu, 100 - 200 * tv, 100 + 200 * tu, 100 + 200 * tv, 180, width);
+  const cv::Mat grey = expose(light, 0);
+  double sum = 0;
+  for (int i = -30; i < 30; ++i) {
+    const RidgePoint p{static_cast<float>(100.3 + i * tu),
+                       static_cast<float>(100.3 * 0 + 100 + i * tv + 0.3 * tv / std::max(tu, 0.1)),
+                       static_cast<float>(-tv),
+                       static_cast<float>(tu),
+                       1,
+                       100,
+                       100};
+    sum += profile_width(view_of(grey), p, 1.3 * width, 0.3);
+  }
+  CHECK(sum / 60 == Approx(width).epsilon(0.08));
+  const RidgePoint nowhere{20, 180, 0, 1, 1, 20, 180};
+  if (angle == 0) CHECK(profile_width(view_of(grey), nowhere, 1.3 * width, 0.3) == 0);
+}
+
+TEST_CASE("segments end at the border, and in white") {
+  cv::Mat light = darkness(600, 300);
+  add_stripe(light, -20, 150, 620, 150, 150, 2);
+  light.colRange(300, 420) += 300;  // over the whole height: nothing to be seen there
+  const Stripe stripe = extract(expose(light, 2));
+  std::vector<SegmentEnd> ends;
+  for (const StripeCentre& c : stripe.centres)
+    if (c.chosen && c.end != SegmentEnd::kContinues) ends.push_back(c.end);
+  CHECK(ends == std::vector{SegmentEnd::kBorder, SegmentEnd::kSaturation, SegmentEnd::kSaturation,
+                            SegmentEnd::kBorder});
+}
+
+TEST_CASE("images without a stripe give none, and say so") {
+  const auto none = [](const cv::Mat& grey) {
+    const Stripe stripe = extract(grey);
+    CHECK(stripe.centres.empty());
+    CHECK(stripe.empty == "no stripe found");
+  };
+  none(cv::Mat(1, 1, CV_8U, cv::Scalar(9)));
+  none(cv::Mat(2, 500, CV_8U, cv::Scalar(200)));
+  none(cv::Mat(400, 3, CV_8U, cv::Scalar(200)));
+  none(cv::Mat(300, 400, CV_8U, cv::Scalar(0)));
+  none(cv::Mat(300, 400, CV_8U, cv::Scalar(255)));
+  none(expose(darkness(400, 300, 40), 3));
+  none(expose(darkness(400, 300, 120), 20));
+  cv::Mat gradient(300, 400, CV_8U);
+  for (int v = 0; v < 300; ++v)
+    for (int u = 0; u < 400; ++u)
+      gradient.at<std::uint8_t>(v, u) = static_cast<std::uint8_t>(u / 2 + v / 6);
+  none(gradient);
+}
+
+TEST_CASE("the same image gives the same stripe, bit by bit") {
+  SceneSettings settings = scene_settings(SceneKind::kTypical);
+  settings.width = 600;
+  settings.height = 450;
+  const cv::Mat grey = render_scene(settings, 9).grey;
+  CHECK(same(extract(grey), extract(grey)));
+}
+
+TEST_CASE("rendered scenes: the stripe and little else, accurately") {
+  const auto scene_score = [](SceneKind kind, std::uint64_t seed, double from_corners) {
+    const Scene scene = render_scene(scene_settings(kind), seed);
+    return score(scene, chosen(extract(scene.grey)), from_corners);
+  };
+  const std::uint64_t seed = GENERATE(1, 2);
+  INFO("seed " << seed);
+  {
+    const SceneScore clean = scene_score(SceneKind::kClean, seed, 20);
+    CHECK(clean.rms < 0.03);
+    CHECK(clean.recall > 0.99);
+    CHECK(clean.wrong == 0);
+  }
+  {
+    const SceneScore typical = scene_score(SceneKind::kTypical, seed, 0);
+    CHECK(typical.rms < 0.25);
+    CHECK(typical.p95 < 0.45);
+    CHECK(typical.recall > 0.98);
+    CHECK(typical.wrong < 0.005);
+  }
+  {
+    const SceneScore saturated = scene_score(SceneKind::kSaturated, seed, 0);
+    CHECK(saturated.rms < 0.25);
+    CHECK(saturated.recall > 0.975);
+    CHECK(saturated.wrong < 0.01);
+  }
+}
