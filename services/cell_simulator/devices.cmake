@@ -9,7 +9,7 @@ file(READ camera_features.xml CAMERA_FEATURES)
 file(CONFIGURE OUTPUT camera_features.hpp @ONLY CONTENT
   "// From camera_features.xml.\n#pragma once\ninline constexpr char kCameraFeatures[] = R\"xml(@CAMERA_FEATURES@)xml\";\n")
 arcstart_library(cell_devices
-  SOURCES frame_renderer.cpp gige_camera.cpp hspo_sender.cpp
+  SOURCES frame_renderer.cpp camera_registers.cpp controller_watch.cpp gige_camera.cpp hspo_sender.cpp
   LINK arcstart::cell_scene arcstart::cell_arm arcstart::service PkgConfig::aravis)
 target_include_directories(arcstart_cell_devices PRIVATE ${CMAKE_CURRENT_BINARY_DIR})
 

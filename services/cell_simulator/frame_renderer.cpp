@@ -17,7 +17,7 @@ bool same_region(const ImageRegion& a, const ImageRegion& b) {
          a.height == b.height;
 }
 
-bool same(const Frame& a, const Frame& b) {
+bool same(const SimulatedFrame& a, const SimulatedFrame& b) {
   return a.slot == b.slot && a.start == b.start &&
          a.exposure.exposure_us == b.exposure.exposure_us &&
          a.exposure.gain_db == b.exposure.gain_db && a.exposure.laser_on == b.exposure.laser_on &&
@@ -38,7 +38,7 @@ FrameRenderer::~FrameRenderer() {
   thread_.join();
 }
 
-Frame FrameRenderer::take(const Frame& wanted, std::uint8_t* grey) {
+SimulatedFrame FrameRenderer::take(const SimulatedFrame& wanted, std::uint8_t* grey) {
   const std::lock_guard lock(mutex_);
   if (!ready_ || ready_->slot != wanted.slot || !same_region(ready_->region, wanted.region))
     render(wanted);
@@ -55,7 +55,7 @@ void FrameRenderer::discard() {
   changed_.notify_all();
 }
 
-void FrameRenderer::render(const Frame& frame) {
+void FrameRenderer::render(const SimulatedFrame& frame) {
   grey_.resize(static_cast<std::size_t>(frame.region.width) *
                static_cast<std::size_t>(frame.region.height));
   render_(frame, grey_.data());
@@ -76,7 +76,7 @@ void FrameRenderer::run() {
       wait_until(lock, ready_->slot + kLateCamera);
       continue;
     }
-    const std::optional<Frame> next = upcoming_(now);
+    const std::optional<SimulatedFrame> next = upcoming_(now);
     if (!next) {
       ready_.reset();
       wait_until(lock, now + kLookAgain);

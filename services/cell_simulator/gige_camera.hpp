@@ -11,6 +11,8 @@
 #include <stdexcept>
 #include <string>
 
+#include "services/cell_simulator/camera_registers.hpp"
+#include "services/cell_simulator/controller_watch.hpp"
 #include "services/cell_simulator/device_clock.hpp"
 #include "services/cell_simulator/frame_renderer.hpp"
 
@@ -31,7 +33,7 @@ struct GigeCameraSettings {
 };
 
 // What to do about it stands in the text.
-class CameraError : public std::runtime_error {
+class GigeCameraError : public std::runtime_error {
  public:
   using std::runtime_error::runtime_error;
 };
@@ -43,14 +45,14 @@ class CameraError : public std::runtime_error {
 class GigeCamera {
  public:
   using Render = FrameRenderer::Render;
-  using Lose = std::function<bool(const Frame&)>;
+  using Lose = std::function<bool(const SimulatedFrame&)>;
 
   // render: called on the camera's threads, one at a time. lose: which frames never leave the
   // camera. Closed at first.
   GigeCamera(const GigeCameraSettings& settings, Render render, Lose lose = {});
   ~GigeCamera();
 
-  void open();   // throws CameraError
+  void open();   // throws GigeCameraError
   void close();  // gone from the network, as if its plug were pulled
   bool is_open() const;
 
@@ -66,27 +68,21 @@ class GigeCamera {
   const GigeCameraSettings& settings() const { return settings_; }
 
  private:
-  struct Registers;
   static void fill(_ArvBuffer* buffer, void* self, std::uint32_t exposure_us, std::uint32_t gain,
                    std::uint32_t pixel_format);
   void send(_ArvBuffer* buffer);
-  Frame frame_of(std::int64_t slot, const Registers& registers) const;
-  std::optional<Frame> upcoming(std::int64_t now) const;
-  std::optional<Registers> registers() const;
-  void watch_controller(_ArvFakeCamera* device);
-  void ask_for_heartbeat_check();
+  SimulatedFrame frame_of(std::int64_t slot, const CameraRegisters& registers) const;
+  std::optional<SimulatedFrame> upcoming(std::int64_t now) const;
+  std::optional<CameraRegisters> registers() const;
 
   GigeCameraSettings settings_;
   Lose lose_;
-  std::mutex
-      control_mutex_;  // one of open, close and tick at a time; never taken by the camera's threads
+  std::mutex control_mutex_;  // of open, close and tick; never taken by the camera's threads
   mutable std::mutex mutex_;  // of camera_ and device_ as pointers
   _ArvGvFakeCamera* camera_ = nullptr;
   _ArvFakeCamera* device_ = nullptr;  // camera_'s registers
   std::atomic<std::int64_t> frames_{0};
-  std::int64_t next_check_ = 0;
-  bool acquired_ = false;  // at the last tick
-  int check_socket_ = -1;
+  std::unique_ptr<ControllerWatch> watch_;
   FrameRenderer renderer_;  // last: its thread uses the others
 };
 

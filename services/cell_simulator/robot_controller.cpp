@@ -1,17 +1,13 @@
 #include "services/cell_simulator/robot_controller.hpp"
 
+#include <cmath>
+
 #include "services/cell_simulator/hspo_packet.hpp"
 #include "services/cell_simulator/random_stream.hpp"
 
 namespace arcstart {
-namespace {
-
-constexpr Joints kHome = {0, 0, 0, 0, -1.5707963267948966, 0};
-
-}  // namespace
-
 RobotController::RobotController(const RobotControllerSettings& settings, Pose pose)
-    : settings_(settings), pose_(std::move(pose)), arm_(settings.T_tool0_tool), joints_(kHome) {}
+    : settings_(settings), pose_(std::move(pose)), arm_(settings.T_tool0_tool) {}
 
 std::vector<std::uint8_t> RobotController::packet(std::int64_t instant,
                                                   std::int64_t clock_back_us) {
@@ -20,16 +16,15 @@ std::vector<std::uint8_t> RobotController::packet(std::int64_t instant,
   report.index = static_cast<std::uint32_t>(packets_);
   const double ticks = static_cast<double>(settings_.clock.nanoseconds(instant - clock_back_us)) /
                        (1000 * settings_.tick_us);
-  report.clock = static_cast<std::uint32_t>(static_cast<std::uint64_t>(ticks));
+  report.clock = static_cast<std::uint32_t>(std::llround(std::floor(ticks)));
 
   if (settings_.joints_too) {
-    auto joints = arm_.joints(T_base_tool, joints_);
-    if (!joints) joints = arm_.joints(T_base_tool);
-    if (joints)
-      joints_ = *joints;
+    const auto near = joints_ ? arm_.joints(T_base_tool, *joints_) : std::nullopt;
+    if (const auto joints = near ? near : arm_.joints(T_base_tool))
+      joints_ = joints;
     else
       ++unreachable_;
-    const Joints counted = fanuc_count(joints_);
+    const Joints counted = fanuc_count(joints_.value_or(Joints{}));
     report.joints.emplace();
     for (std::size_t i = 0; i < counted.size(); ++i)
       (*report.joints)[i] = static_cast<float>(counted[i]);

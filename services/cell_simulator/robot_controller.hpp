@@ -4,6 +4,7 @@
 #include <atomic>
 #include <cstdint>
 #include <functional>
+#include <optional>
 #include <vector>
 
 #include "services/cell_simulator/device_clock.hpp"
@@ -39,7 +40,7 @@ class RobotController {
   RobotControllerSettings settings_;
   Pose pose_;
   FanucM20ia arm_;
-  Joints joints_;
+  std::optional<Joints> joints_;  // of the last packet
   std::uint64_t packets_ = 0;
   std::atomic<std::int64_t> unreachable_{0};
 };

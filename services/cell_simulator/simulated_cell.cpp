@@ -73,8 +73,8 @@ SimulatedCell::SimulatedCell(const CellSimulatorSettings& settings, std::int64_t
       renderer_(settings.sensor),
       camera_(
           camera_settings(settings, now),
-          [this](const Frame& frame, std::uint8_t* grey) { render(frame, grey); },
-          [this](const Frame& frame) {
+          [this](const SimulatedFrame& frame, std::uint8_t* grey) { render(frame, grey); },
+          [this](const SimulatedFrame& frame) {
             return faults_.frame_lost(frame.slot, camera_.frame_period());
           }) {
   if (!reaches(search_begin(settings)) || !reaches(search_end(settings)))
@@ -141,7 +141,7 @@ void SimulatedCell::tick(std::int64_t now) {
 }
 
 // On the camera's threads.
-void SimulatedCell::render(const Frame& frame, std::uint8_t* grey) {
+void SimulatedCell::render(const SimulatedFrame& frame, std::uint8_t* grey) {
   std::shared_ptr<const Scene> scene;
   std::uint64_t noise_seed;
   {

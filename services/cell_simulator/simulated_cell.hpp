@@ -18,8 +18,8 @@ namespace arcstart {
 // Used by one thread; the devices' threads are its own. Times in us, UTC.
 class SimulatedCell {
  public:
-  // Throws SceneError, CameraError, HspoSenderError, and std::runtime_error where the arm cannot
-  // reach the taught positions.
+  // Throws SceneError, GigeCameraError, HspoSenderError, and std::runtime_error where the arm
+  // cannot reach the taught positions.
   SimulatedCell(const CellSimulatorSettings& settings, std::int64_t now);
   ~SimulatedCell();
 
@@ -48,7 +48,7 @@ class SimulatedCell {
   }  // what cannot be done at present, with what to do; empty for nothing
 
  private:
-  void render(const Frame& frame, std::uint8_t* grey);
+  void render(const SimulatedFrame& frame, std::uint8_t* grey);
 
   CellSimulatorSettings settings_;
   std::mutex scene_mutex_;  // of what the camera's threads read: the four below

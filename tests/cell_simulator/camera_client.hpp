@@ -14,7 +14,7 @@ struct ReceivedFrame {
   std::uint64_t id;
   std::int64_t device_ns;      // leader's stamp
   std::int64_t arrival_utime;  // first packet; us
-  int width, height;
+  int offset_x, offset_y, width, height;
   std::vector<std::uint8_t> grey;
 };
 
@@ -76,6 +76,8 @@ class CameraClient {
         frame = {arv_buffer_get_frame_id(buffer),
                  static_cast<std::int64_t>(arv_buffer_get_timestamp(buffer)),
                  static_cast<std::int64_t>(arv_buffer_get_system_timestamp(buffer) / 1000),
+                 arv_buffer_get_image_x(buffer),
+                 arv_buffer_get_image_y(buffer),
                  arv_buffer_get_image_width(buffer),
                  arv_buffer_get_image_height(buffer),
                  {grey, grey + size}};

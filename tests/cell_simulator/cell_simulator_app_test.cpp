@@ -199,6 +199,38 @@ TEST_CASE("a client sees the scene by the laser's light") {
   CHECK(cell.truth().frames > 6);
 }
 
+TEST_CASE("the same search of the same scene gives the same frames") {
+  CellSimulatorSettings settings = small_cell();
+  settings.scene_at_start = "workpiece";
+  settings.frame_rate_hz = 20;
+  settings.search_speed_mm_s = 150;
+  Cell cell(settings);
+  CameraClient client;
+  REQUIRE(client.get());
+  client.light_the_laser();
+  client.start();
+  // The frames of a search, by the arm's moving; those at its edges may fall on either side.
+  const auto search = [&](std::int64_t scan_id) {
+    std::vector<std::vector<std::uint8_t>> frames;
+    for (bool begun = false; !begun || cell.truth().moving;) {
+      cell.scan(scan_t::SCANNING, scan_id);
+      begun = begun || cell.truth().moving;
+      const ReceivedFrame frame = client.next();
+      if (begun) frames.push_back(frame.grey);
+    }
+    cell.scan(scan_t::ENDED, scan_id);
+    cell.run_until([&] { return cell.truth().moving; });
+    cell.run_until([&] { return !cell.truth().moving; });
+    return frames;
+  };
+  const auto first = search(utime_now()), second = search(utime_now());
+  REQUIRE(first.size() > 15);
+  int same = 0;
+  for (const auto& frame : first) same += std::count(second.begin(), second.end(), frame);
+  CHECK(same >= static_cast<int>(first.size()) - 3);
+  CHECK(std::count(first.begin(), first.end(), first[5]) == 1);  // the arm moves
+}
+
 TEST_CASE("the faults set for a scan take the camera away and bring it back") {
   CellSimulatorSettings settings = small_cell();
   settings.fault_scan = 1;

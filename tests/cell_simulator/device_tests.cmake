@@ -7,7 +7,8 @@ arcstart_test(cell_simulator_hspo_sender_test SOURCES hspo_sender_test.cpp LINK 
 
 # The camera's control port is fixed, so these run in a network of their own; where none is to be had they are skipped,
 # and fail under CI.
-add_executable(cell_simulator_camera_test gige_camera_test.cpp cell_simulator_app_test.cpp)
+add_executable(cell_simulator_camera_test gige_camera_test.cpp camera_controller_test.cpp
+               cell_simulator_app_test.cpp)
 target_link_libraries(cell_simulator_camera_test PRIVATE arcstart::cell_simulator_app PkgConfig::aravis
                       arcstart_catch_main arcstart_warnings)
 set_target_properties(cell_simulator_camera_test PROPERTIES RUNTIME_OUTPUT_DIRECTORY ${PROJECT_BINARY_DIR}/tests/bin)

@@ -13,8 +13,8 @@ namespace {
 
 constexpr std::int64_t kSecond = 1'000'000;
 
-Frame frame_at(std::int64_t slot, std::int64_t start, double exposure_us) {
-  Frame frame;
+SimulatedFrame frame_at(std::int64_t slot, std::int64_t start, double exposure_us) {
+  SimulatedFrame frame;
   frame.slot = slot;
   frame.start = start;
   frame.exposure.exposure_us = exposure_us;
@@ -27,7 +27,7 @@ struct Painter {
   std::atomic<int> rendered{0};
   std::thread::id thread;
   FrameRenderer::Render render() {
-    return [this](const Frame& frame, std::uint8_t* grey) {
+    return [this](const SimulatedFrame& frame, std::uint8_t* grey) {
       std::fill_n(grey, frame.region.width * frame.region.height,
                   static_cast<std::uint8_t>(frame.exposure.exposure_us));
       thread = std::this_thread::get_id();
@@ -43,11 +43,11 @@ struct Painter {
 
 TEST_CASE("a frame is rendered before it is asked for, once, on the own thread") {
   Painter painter;
-  const Frame coming = frame_at(utime_now() + 60 * kSecond, utime_now() + 59 * kSecond, 7);
+  const SimulatedFrame coming = frame_at(utime_now() + 60 * kSecond, utime_now() + 59 * kSecond, 7);
   FrameRenderer renderer(painter.render(), [&](std::int64_t) { return coming; });
   painter.wait_for(1);
   std::vector<std::uint8_t> grey(8);
-  const Frame taken = renderer.take(coming, grey.data());
+  const SimulatedFrame taken = renderer.take(coming, grey.data());
   CHECK(painter.rendered == 1);
   CHECK(painter.thread != std::this_thread::get_id());
   CHECK(taken.start == coming.start);
@@ -56,9 +56,10 @@ TEST_CASE("a frame is rendered before it is asked for, once, on the own thread")
 
 TEST_CASE("a frame that nobody foresaw is rendered when it is asked for") {
   Painter painter;
-  FrameRenderer renderer(painter.render(), [](std::int64_t) { return std::optional<Frame>(); });
+  FrameRenderer renderer(painter.render(),
+                         [](std::int64_t) { return std::optional<SimulatedFrame>(); });
   std::vector<std::uint8_t> grey(8);
-  const Frame taken = renderer.take(frame_at(5, 4, 9), grey.data());
+  const SimulatedFrame taken = renderer.take(frame_at(5, 4, 9), grey.data());
   CHECK(painter.thread == std::this_thread::get_id());
   CHECK(taken.exposure.exposure_us == 9);
   CHECK(grey == std::vector<std::uint8_t>(8, 9));
@@ -82,7 +83,7 @@ TEST_CASE("what is set before the exposure begins holds for it, what is set late
 
 TEST_CASE("a changed scene is rendered anew") {
   Painter painter;
-  const Frame coming = frame_at(utime_now() + 60 * kSecond, utime_now() + 59 * kSecond, 7);
+  const SimulatedFrame coming = frame_at(utime_now() + 60 * kSecond, utime_now() + 59 * kSecond, 7);
   FrameRenderer renderer(painter.render(), [&](std::int64_t) { return coming; });
   painter.wait_for(1);
   renderer.discard();
@@ -92,10 +93,10 @@ TEST_CASE("a changed scene is rendered anew") {
 
 TEST_CASE("another region than the one foreseen is rendered when it is asked for") {
   Painter painter;
-  const Frame coming = frame_at(utime_now() + 60 * kSecond, utime_now() + 59 * kSecond, 7);
+  const SimulatedFrame coming = frame_at(utime_now() + 60 * kSecond, utime_now() + 59 * kSecond, 7);
   FrameRenderer renderer(painter.render(), [&](std::int64_t) { return coming; });
   painter.wait_for(1);
-  Frame smaller = coming;
+  SimulatedFrame smaller = coming;
   smaller.region.width = 2;
   std::vector<std::uint8_t> grey(8, 0);
   renderer.take(smaller, grey.data());
