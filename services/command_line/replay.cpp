@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cctype>
+#include <limits>
 #include <map>
 #include <set>
 
@@ -110,16 +111,32 @@ class Pipeline {
 
 bool is_background(const RecordedScan& scan) { return scan.kind == scan_t::BACKGROUND; }
 
-// The recording given with --background, checked.
-Recording open_background(const ReplayOptions& options, const Recording& recording) {
-  Recording background({options.background}, recording.sensor(), recording.robot());
-  background.require_channels();
-  const auto& scans = background.scans();
-  if (std::none_of(scans.begin(), scans.end(), [](const auto& scan) {
-        return is_background(scan.second) && scan.second.ended;
-      }))
-    throw RecordingError(background.name() + ": holds no whole background scan");
-  return background;
+// The recording given with --background, and which of its scans serve: those before all scans of
+// the recording.
+struct GivenBackground {
+  Recording recording;
+  std::set<std::int64_t> scans;
+};
+
+GivenBackground open_background(const ReplayOptions& options, const Recording& recording) {
+  GivenBackground given{Recording({options.background}, recording.sensor(), recording.robot()), {}};
+  given.recording.require_channels();
+  bool any = false;
+  std::int64_t first = std::numeric_limits<std::int64_t>::max();
+  for (const auto& [id, scan] : recording.scans())
+    if (!is_background(scan)) first = std::min(first, id);
+  for (const auto& [id, scan] : given.recording.scans()) {
+    if (!is_background(scan) || !scan.ended) continue;
+    any = true;
+    if (id < first) given.scans.insert(id);
+  }
+  const std::string& name = given.recording.name();
+  if (!any) throw RecordingError(name + ": holds no whole background scan");
+  if (given.scans.empty())
+    throw RecordingError(fmt::format(
+        "{}: its background scan is later than scan {} of {}, a background comes before", name,
+        first, recording.name()));
+  return given;
 }
 
 void append(std::vector<std::string>& lines, const std::vector<std::string>& more) {
@@ -151,19 +168,22 @@ ReplayResult replay_recordings(const std::vector<std::string>& paths,
                                const ReplayOptions& options) {
   Recording recording(paths, options.sensor, options.robot);
   recording.require_channels();
-  std::optional<Recording> background;
+  std::optional<GivenBackground> background;
   if (!options.background.empty()) background = open_background(options, recording);
 
   ReplayResult result;
   result.sensor = recording.sensor();
   result.robot = recording.robot();
-  const Stage first = background ? std::min(first_stage(recording), first_stage(*background))
-                                 : first_stage(recording);
+  const Stage first = background
+                          ? std::min(first_stage(recording), first_stage(background->recording))
+                          : first_stage(recording);
   const Settings settings = read_settings(recording, first, options.cell, result.warnings);
   Pipeline pipeline(settings, Instance{recording.sensor(), recording.robot(), ""});
 
-  const auto before =
-      background ? background->sources(is_background) : std::vector<RecordedMessage>{};
+  const auto before = background ? background->recording.sources([&](const RecordedScan& scan) {
+    return background->scans.contains(scan.scan_id);
+  })
+                                 : std::vector<RecordedMessage>{};
   const auto wanted = [&](const RecordedScan& scan) { return !background || !is_background(scan); };
   const auto messages = recording.sources(wanted);
   std::size_t done = 0;
@@ -172,7 +192,7 @@ ReplayResult replay_recordings(const std::vector<std::string>& paths,
     options.on_progress(static_cast<double>(done) /
                         static_cast<double>(before.size() + messages.size()));
   };
-  if (background) pipeline.run(*background, before, on_message);
+  if (background) pipeline.run(background->recording, before, on_message);
   pipeline.run(recording, messages, on_message);
 
   std::set<std::int64_t> answered;
@@ -186,26 +206,27 @@ ReplayResult replay_recordings(const std::vector<std::string>& paths,
       result.seams.push_back(
           {scan->second.kind.value_or(scan_t::WORKPIECE), answer.seam, answer.bytes});
     } else if (background && answer.seam.verdict != seam_t::BACKGROUND_STORED) {
-      result.warnings.push_back(
-          fmt::format("{}: scan {}: {}", background->name(), id, printable(answer.seam.reason)));
+      result.warnings.push_back(fmt::format("{}: scan {}: {}", background->recording.name(), id,
+                                            printable(answer.seam.reason)));
     }
   }
   for (const auto& [id, scan] : recording.scans()) {
     if (!wanted(scan))
       result.warnings.push_back(
           fmt::format("{}: its background scan {} is left out, that of {} is used",
-                      recording.name(), id, background->name()));
+                      recording.name(), id, background->recording.name()));
     else if (!answered.contains(id))
       result.unanswered.push_back({id, scan.kind, recording.why_unanswered(scan)});
   }
   if (recording.is_damaged() && result.seams.empty())
     throw RecordingError(recording.warnings().front() + "; no scan before it is whole");
 
-  if (background) append(result.warnings, background->warnings());
+  if (background) append(result.warnings, background->recording.warnings());
   append(result.warnings, recording.warnings());
   if (pipeline.bus().undecodable() > 0)
     result.warnings.push_back("a stage failed: " + pipeline.bus().last_error());
-  result.undecodable = recording.undecodable() + (background ? background->undecodable() : 0);
+  result.undecodable =
+      recording.undecodable() + (background ? background->recording.undecodable() : 0);
   return result;
 }
 

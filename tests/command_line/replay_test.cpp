@@ -264,6 +264,22 @@ TEST_CASE("the background comes from the recording, from another, or is missed")
   options.background = workpiece;
   CHECK_THAT(refusal({workpiece}, options),
              Contains("workpiece.lcm: holds no whole background scan"));
+
+  // A background that is later than the work is none.
+  recorded.workpiece = recorded.background = true;
+  Events later = record(recorded);
+  for (auto& event : later) {
+    scan_t state;
+    if (event.channel == "LASER0_SCAN" && decode(event.bytes, state).empty()) {
+      state.kind = state.kind == scan_t::BACKGROUND ? scan_t::WORKPIECE : scan_t::BACKGROUND;
+      state.previous_kind = scan_t::WORKPIECE;
+      event.bytes = encoded(state);
+    }
+  }
+  const auto swapped = folder.save("swapped.lcm", later);
+  options.background = swapped;
+  CHECK_THAT(refusal({swapped}, options),
+             Contains("swapped.lcm: its background scan is later than scan"));
 }
 
 TEST_CASE(
