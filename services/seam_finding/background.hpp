@@ -1,0 +1,59 @@
+// What is part of the empty cell: two rules that say whether a point belongs to the background
+// scan.
+#pragma once
+
+#include <Eigen/Core>
+#include <memory>
+
+#include "services/seam_finding/neighbour_grid.hpp"
+#include "services/seam_finding/plane_fit.hpp"
+#include "services/seam_finding/scan_cloud.hpp"
+
+namespace arcstart {
+
+class Background {
+ public:
+  virtual ~Background() = default;
+  virtual bool contains(const Eigen::Vector3d& point) const = 0;
+};
+
+// Near the background's local surface. In every cell of a grid a plane is laid through what lies in
+// it and around it, a window of three cells or about four stripes, so that neither the stripes'
+// distance nor their phase matters, however dense the points along them are: the nearest dozen of
+// points may all lie on one stripe, and a line has no plane. Where the window is no plane (a step,
+// a corner, a lone stripe) the distance to the nearest point decides. A point farther than two
+// cells from all that the background scan saw is not background: nothing is known there.
+class SurfaceBackground : public Background {
+ public:
+  // The cloud must outlive it. distance: from the surface, mm; raised to 3.5 times the background's
+  // own noise.
+  SurfaceBackground(const ScanCloud& cloud, double distance_mm);
+  bool contains(const Eigen::Vector3d& point) const override;
+
+ private:
+  struct Surface {
+    PlaneSums::Fit fit;
+    bool is_plane = false;
+  };
+  Sampling sampling_;
+  double distance_;
+  NeighbourGrid grid_;
+  std::vector<Surface> surfaces_;  // one a cell of the grid
+};
+
+// The paper's rule (5): the K-th nearest point of the background is nearer than the distance. By
+// PCL's KD-tree.
+class NeighbourBackground : public Background {
+ public:
+  NeighbourBackground(const ScanCloud& cloud, int neighbours, double distance_mm);
+  ~NeighbourBackground() override;
+  bool contains(const Eigen::Vector3d& point) const override;
+
+ private:
+  struct Tree;
+  std::unique_ptr<Tree> tree_;
+  int neighbours_;
+  double distance_;
+};
+
+}  // namespace arcstart

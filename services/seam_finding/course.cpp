@@ -1,0 +1,141 @@
+#include "services/seam_finding/course.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+namespace arcstart {
+namespace {
+
+constexpr double kLeastNear = 2;    // mm
+constexpr double kLoneGap = 2.5;    // stripe spacings
+constexpr double kSamePlace = 0.3;  // of the spacing: the tool stood still
+
+bool both(const Station& station, const std::array<double, 2>& near) {
+  return station.nearest[0] <= near[0] && station.nearest[1] <= near[1];
+}
+
+// An uninterrupted part of the seam.
+struct Stretch {
+  int first = 0, last = 0;  // stations, both with both plates
+  int stripes = 0;
+  double covered = 0;  // mm
+};
+
+std::vector<Stretch> stretches(const std::vector<Station>& stations,
+                               const std::array<double, 2>& near, double spacing) {
+  std::vector<Stretch> found;
+  bool open = false;
+  double counted_at = 0;
+  for (int i = 0; i < static_cast<int>(stations.size()); ++i) {
+    if (!stations[i].known) continue;
+    if (!both(stations[i], near)) {
+      open = false;
+      continue;
+    }
+    if (!open) {
+      found.push_back({i, i, 1, spacing});
+      counted_at = stations[i].along;
+    } else if (stations[i].along - counted_at > kSamePlace * spacing) {
+      found.back().covered += stations[i].along - counted_at;
+      ++found.back().stripes;
+      counted_at = stations[i].along;
+    }
+    found.back().last = i;
+    open = true;
+  }
+  return found;
+}
+
+// The longest, and what lies beyond short interruptions of it. A lone stripe is part of the seam
+// only where no more than one stripe lies between.
+Stretch longest(const std::vector<Stretch>& found, const std::vector<Station>& stations,
+                const CourseSearch& search) {
+  const auto best =
+      std::max_element(found.begin(), found.end(),
+                       [](const Stretch& a, const Stretch& b) { return a.covered < b.covered; });
+  Stretch whole = *best;
+  const auto joins = [&](const Stretch& piece, double gap) {
+    return gap <= (piece.stripes < 2 ? kLoneGap * search.spacing : search.bridge);
+  };
+  const auto take = [&](const Stretch& piece) {
+    whole.first = std::min(whole.first, piece.first);
+    whole.last = std::max(whole.last, piece.last);
+    whole.stripes += piece.stripes;
+    whole.covered += piece.covered;
+  };
+  for (auto piece = best; piece != found.begin();) {
+    --piece;
+    if (!joins(*piece, stations[whole.first].along - stations[piece->last].along)) break;
+    take(*piece);
+  }
+  for (auto piece = best + 1; piece != found.end(); ++piece) {
+    if (!joins(*piece, stations[piece->first].along - stations[whole.last].along)) break;
+    take(*piece);
+  }
+  return whole;
+}
+
+// How near a plate's points usually come to the line, so that a stripe which only passes by is not
+// taken for one that crosses the seam.
+double usual_distance(const std::vector<Station>& stations, const Stretch& stretch, int plate,
+                      double contact) {
+  std::vector<double> nearest;
+  for (int i = stretch.first; i <= stretch.last; ++i)
+    if (stations[i].nearest[plate] <= contact) nearest.push_back(stations[i].nearest[plate]);
+  if (nearest.empty()) return contact;
+  const auto high = nearest.begin() + static_cast<std::ptrdiff_t>(9 * (nearest.size() - 1) / 10);
+  std::nth_element(nearest.begin(), high, nearest.end());
+  return std::clamp(2 * *high, std::min(kLeastNear, contact), contact);
+}
+
+double end_beyond(const std::vector<Station>& stations, int from, int step, int& missing,
+                  bool& outside) {
+  missing = 0;
+  for (int i = from + step; i >= 0 && i < static_cast<int>(stations.size()); i += step) {
+    if (stations[i].known) return (stations[i].along + stations[from].along) / 2;
+    ++missing;
+  }
+  outside = true;
+  return stations[from].along;
+}
+
+}  // namespace
+
+Course find_course(const ScanCloud& cloud, const std::array<Plate, 2>& plates, const Line& line,
+                   const CourseSearch& search) {
+  Course course;
+  const auto stations = stations_along(cloud, plates, line, search);
+  std::array<double, 2> near = {plates[0].contact, plates[1].contact};
+  auto found = stretches(stations, near, search.spacing);
+  if (found.empty()) return course;
+  const Stretch rough = longest(found, stations, search);
+  for (int j = 0; j < 2; ++j) near[j] = usual_distance(stations, rough, j, near[j]);
+  found = stretches(stations, near, search.spacing);
+  if (found.empty()) return course;
+  const Stretch whole = longest(found, stations, search);
+  course.stripes = whole.stripes;
+  course.covered = whole.covered;
+  course.begin =
+      end_beyond(stations, whole.first, -1, course.missing_before, course.begins_outside);
+  course.end = end_beyond(stations, whole.last, +1, course.missing_after, course.ends_outside);
+  return course;
+}
+
+double centroid_of_first(const ScanCloud& cloud, const std::array<Plate, 2>& plates,
+                         const Line& line, const Course& course, int count) {
+  std::vector<double> places;
+  for (const Plate& plate : plates)
+    for (const int i : plate.points) {
+      const double t = line.along(cloud.points[i]);
+      if (t >= course.begin && t <= course.end && line.distance(cloud.points[i]) <= plate.contact)
+        places.push_back(t);
+    }
+  if (places.empty()) return course.begin;
+  std::sort(places.begin(), places.end());
+  places.resize(std::min(places.size(), static_cast<std::size_t>(count)));
+  double sum = 0;
+  for (const double t : places) sum += t;
+  return sum / static_cast<double>(places.size());
+}
+
+}  // namespace arcstart

@@ -1,0 +1,260 @@
+#include "services/seam_finding/find_seam.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "services/seam_finding/joints.hpp"
+#include "services/seam_finding/plane_fit.hpp"
+#include "services/seam_finding/refit.hpp"
+
+namespace arcstart {
+namespace {
+
+constexpr double kDegree = M_PI / 180;
+constexpr double kLeastTolerance = 0.6;  // mm
+constexpr double kMostTolerance = 6;     // mm
+constexpr double kNoiseTolerance = 4;    // tolerance over noise
+constexpr double kPlaneHeights = 5;      // of PlaneBackground, in tolerances
+constexpr int kAlternatives = 6;
+constexpr int kMissingInARow = 3;    // stripes before the start
+constexpr double kContinues = 0.25;  // share of a face's points that lie in its plane as background
+
+struct Scales {
+  double tolerance, connection, contact, spacing;
+};
+
+// What counts as near, from what the cloud itself shows.
+Scales scales_of(const ScanCloud& cloud, const Sampling& sampling, double tolerance_mm) {
+  Scales scales;
+  scales.spacing = sampling.spacing;
+  scales.tolerance = tolerance_mm > 0 ? tolerance_mm
+                                      : std::clamp(kNoiseTolerance * sampling.noise,
+                                                   kLeastTolerance, kMostTolerance);
+  scales.connection = std::max(4.0, (cloud.organised() ? 2 : 4) * sampling.spacing);
+  scales.contact =
+      std::max({6.0, 3 * scales.tolerance, cloud.organised() ? 0 : 4 * sampling.spacing});
+  return scales;
+}
+
+PlaneSearch plane_search(const Scales& scales, const SeamFindingSettings& settings) {
+  PlaneSearch search;
+  search.tolerance = scales.tolerance;
+  search.connection = scales.connection;
+  search.least_points = settings.plane_points_min;
+  search.most_faces = settings.planes_max;
+  search.locality = std::max(40.0, 6 * scales.connection);
+  return search;
+}
+
+JointSearch joint_search(const ScanCloud& cloud, const Scales& scales,
+                         const SeamFindingSettings& settings) {
+  JointSearch search;
+  search.angle = settings.angle_deg * kDegree;
+  search.angle_tolerance = settings.angle_tolerance_deg * kDegree;
+  search.tolerance = scales.tolerance;
+  search.stripes_min = settings.stripes_min;
+  search.length_min = cloud.organised() ? 0 : std::max(20.0, settings.stripes_min * scales.spacing);
+  search.contact = scales.contact;
+  search.course.spacing = scales.spacing;
+  search.course.tolerance = scales.tolerance;
+  return search;
+}
+
+// A face in whose plane the background goes on is background that its scan did not reach, or let
+// through.
+bool continues_background(const ScanCloud& scan, const std::vector<int>& background,
+                          const Face& face, const Scales& scales) {
+  Eigen::Vector3d low = scan.points[face.points.front()], high = low;
+  for (const int i : face.points)
+    low = low.cwiseMin(scan.points[i]), high = high.cwiseMax(scan.points[i]);
+  const double around = 4 * scales.connection;
+  PlaneSums in_plane(low);
+  for (const int i : background) {
+    const Eigen::Vector3d& p = scan.points[i];
+    if ((p - low).minCoeff() > -around && (high - p).minCoeff() > -around &&
+        std::abs(face.plane.signed_distance(p)) <= scales.tolerance)
+      in_plane.add(p);
+  }
+  // Where the plane only cuts through the background they lie on a narrow strip.
+  return in_plane.weight() >=
+             std::max(10.0, kContinues * static_cast<double>(face.points.size())) &&
+         in_plane.fit().spread[0] > 3 * scales.tolerance;
+}
+
+// The paper's own way: the largest plane, then the largest that satisfies Eq. 6 with it.
+std::vector<Face> two_largest_faces(const ScanCloud& scan, const std::vector<int>& left,
+                                    PlaneSearch search, const JointSearch& joint,
+                                    std::uint64_t seed) {
+  search.most_faces = 1;
+  auto faces = find_faces(scan, left, search, seed);
+  if (faces.empty()) return faces;
+  std::vector<int> rest;
+  std::set_difference(left.begin(), left.end(), faces[0].points.begin(), faces[0].points.end(),
+                      std::back_inserter(rest));
+  const Eigen::Vector3d n1 = faces[0].plane.normal;
+  search.accept = [&](const Plane& plane) {
+    const double angle = std::acos(std::min(1.0, std::abs(n1.dot(plane.normal))));
+    return std::min(std::abs(angle - joint.angle), std::abs(M_PI - angle - joint.angle)) <
+           joint.angle_tolerance;
+  };
+  for (Face& face : find_faces(scan, rest, search, seed)) faces.push_back(std::move(face));
+  return faces;
+}
+
+SeamResult& refuse(SeamResult& result, std::string reason) {
+  result.verdict = SeamResult::Verdict::kRefused;
+  result.reason = std::move(reason);
+  return result;
+}
+
+SeamResult::Alternative as_alternative(const Joint& joint, std::string reason) {
+  return {"tee", joint.score, joint.start(), joint.end(), std::move(reason)};
+}
+
+void answer(SeamResult& result, const ScanCloud& scan, const Joint& joint,
+            const SeamFindingSettings& settings) {
+  result.verdict = SeamResult::Verdict::kFound;
+  result.joint_type = "tee";
+  result.direction = joint.line.direction;
+  result.start = joint.start();
+  result.end = joint.end();
+  if (settings.start_rule == "centroid")
+    result.start = joint.line.at(
+        centroid_of_first(scan, joint.plates, joint.line, joint.course, settings.start_points));
+  result.angle = joint.angle;
+  for (int j = 0; j < 2; ++j) {
+    result.normals[j] = joint.plates[j].plane.normal;
+    result.plates[j] = joint.plates[j].points;
+  }
+  result.ends_outside = joint.course.ends_outside;
+  if (joint.course.missing_before > 0)
+    result.remark +=
+        fmt::format("{} stripes right before the start are missing; ", joint.course.missing_before);
+  if (joint.course.missing_after > 0)
+    result.remark +=
+        fmt::format("{} stripes right behind the end are missing; ", joint.course.missing_after);
+  if (joint.course.ends_outside) result.remark += "the seam runs on where the scan ends; ";
+  result.remark += "not determined: deviations, visibility of the ends, gap, course, torch pose";
+}
+
+}  // namespace
+
+SeamResult find_seam(const ScanCloud& scan, const Background& background,
+                     const SeamFindingSettings& settings, std::uint64_t seed) {
+  SeamResult result;
+  const Sampling sampling = measure_sampling(scan);
+  if (!(sampling.spacing > 1e-3))
+    return refuse(result, "no cloud: the points, or the tool's positions, coincide");
+  if (scan.organised() && !search_direction(scan))
+    return refuse(result, "the tool did not move in the scan");
+  const Scales scales = scales_of(scan, sampling, settings.plane_tolerance_mm);
+
+  std::vector<int> left;
+  for (int i = 0; i < scan.size(); ++i)
+    (background.contains(scan.points[i]) ? result.background : left).push_back(i);
+
+  const PlaneSearch plane = plane_search(scales, settings);
+  const JointSearch joint = joint_search(scan, scales, settings);
+  auto faces = settings.plane_rule == "largest" ? two_largest_faces(scan, left, plane, joint, seed)
+                                                : find_faces(scan, left, plane, seed);
+  if (faces.empty())
+    return refuse(
+        result,
+        fmt::format("no workpiece: no plane among the {} of {} points that are not background",
+                    left.size(), scan.size()));
+  std::erase_if(faces, [&](const Face& face) {
+    return continues_background(scan, result.background, face, scales);
+  });
+  if (faces.empty())
+    return refuse(result, "no workpiece: what is left only continues the background");
+  if (faces.size() == 1) return refuse(result, "one plane only: a joint needs two");
+
+  const auto certain = turn_to_sensor(scan, faces);
+  auto joints = rank_joints(scan, left, faces, certain, joint);
+  if (joints.empty())
+    return refuse(result, fmt::format("no joint: of {} planes no two meet under the angle wanted",
+                                      faces.size()));
+
+  // One entry a seam; those that may be one are measured again beside it.
+  std::vector<Joint> seams;
+  for (Joint& candidate : joints) {
+    if (std::any_of(seams.begin(), seams.end(),
+                    [&](const Joint& seam) { return same_seam(seam, candidate, scales.contact); }))
+      continue;
+    if (candidate.flaw.empty())
+      refit_joint(scan, candidate,
+                  {settings.refit_distance_mm, settings.outlier_neighbours,
+                   settings.outlier_deviations, scales.tolerance},
+                  joint.course);
+    seams.push_back(std::move(candidate));
+    if (static_cast<int>(seams.size()) == kAlternatives) break;
+  }
+
+  const Joint& best = seams.front();
+  const Course& course = best.course;
+  int rivals = 0;
+  for (std::size_t i = 1; i < seams.size(); ++i) {
+    const bool rival = best.flaw.empty() && seams[i].flaw.empty() &&
+                       seams[i].score * settings.ambiguity_ratio >= best.score;
+    rivals += rival;
+    result.alternatives.push_back(as_alternative(seams[i], !seams[i].flaw.empty() ? seams[i].flaw
+                                                           : rival
+                                                               ? "its score is too near the best"
+                                                               : "its score is lower"));
+  }
+  std::string doubt;
+  if (!best.flaw.empty())
+    doubt = "no joint: of the best pair of planes " + best.flaw;
+  else if (course.stripes < settings.stripes_min)
+    doubt = fmt::format("only {} stripes show both plates at the seam", course.stripes);
+  else if (std::abs(best.angle - joint.angle) > joint.angle_tolerance)
+    doubt = fmt::format("no joint: beside the seam the plates' angle is {:.1f} deg",
+                        best.angle / kDegree);
+  else if (course.begins_outside)
+    doubt = "the seam's start was not seen: both plates are there where the scan begins";
+  else if (course.missing_before >= kMissingInARow)
+    doubt = fmt::format("the seam's start was not seen: {} stripes before it are missing",
+                        course.missing_before);
+  if (!doubt.empty() || rivals > 0)
+    result.alternatives.insert(
+        result.alternatives.begin(),
+        as_alternative(best, !doubt.empty() ? doubt : "another's score is too near"));
+  if (!doubt.empty()) return refuse(result, doubt);
+  if (rivals > 0) {
+    result.verdict = SeamResult::Verdict::kAmbiguous;
+    result.reason = fmt::format("{} seams with scores within a factor of {}", rivals + 1,
+                                settings.ambiguity_ratio);
+    return result;
+  }
+  answer(result, scan, best, settings);
+  return result;
+}
+
+std::optional<Plane> dominant_plane(const ScanCloud& cloud, std::uint64_t seed) {
+  const Scales scales = scales_of(cloud, measure_sampling(cloud), 0);
+  PlaneSearch search = plane_search(scales, {});
+  search.most_faces = 1;
+  std::vector<int> all(cloud.points.size());
+  for (int i = 0; i < cloud.size(); ++i) all[i] = i;
+  const auto faces = find_faces(cloud, all, search, seed);
+  if (faces.empty()) return std::nullopt;
+  const Plane plane = faces.front().plane;
+  int above = 0, below = 0;
+  for (const auto& point : cloud.points) {
+    above += plane.signed_distance(point) > kPlaneHeights * scales.tolerance;
+    below += plane.signed_distance(point) < -kPlaneHeights * scales.tolerance;
+  }
+  return above >= below ? plane : plane.flipped();
+}
+
+PlaneBackground::PlaneBackground(const ScanCloud& cloud, const Plane& plane)
+    : plane_(plane),
+      height_(kPlaneHeights * scales_of(cloud, measure_sampling(cloud), 0).tolerance) {}
+
+bool PlaneBackground::contains(const Eigen::Vector3d& point) const {
+  return plane_.signed_distance(point) <= height_;
+}
+
+}  // namespace arcstart

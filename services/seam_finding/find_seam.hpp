@@ -1,0 +1,69 @@
+// From the points of a scan to the weld seam and where it starts (paper 5).
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <string>
+#include <vector>
+
+#include "services/seam_finding/background.hpp"
+#include "services/seam_finding/seam_finding_settings.hpp"
+
+namespace arcstart {
+
+struct SeamResult {
+  enum class Verdict { kFound, kAmbiguous, kRefused };
+  Verdict verdict = Verdict::kRefused;
+  std::string reason;  // why, where not found
+  std::string remark;  // what a person should know of a found one
+
+  // Where found. In base, mm and rad.
+  std::string joint_type;
+  Eigen::Vector3d start = Eigen::Vector3d::Zero(), end = Eigen::Vector3d::Zero();
+  Eigen::Vector3d direction = Eigen::Vector3d::Zero();  // unit, along the search
+  std::array<Eigen::Vector3d, 2> normals = {Eigen::Vector3d::Zero(),
+                                            Eigen::Vector3d::Zero()};  // out of the metal
+  double angle = 0;                        // between the plates' open sides
+  bool ends_outside = false;               // the seam runs on where the scan ends
+  std::array<std::vector<int>, 2> plates;  // indices of the plates' points
+
+  // Other seams, and where ambiguous all of them, best first.
+  struct Alternative {
+    std::string joint_type;
+    double score = 0;
+    Eigen::Vector3d start, end;
+    std::string reason;  // why it is not the answer
+  };
+  std::vector<Alternative> alternatives;
+
+  std::vector<int> background;  // indices of the points taken for background
+};
+
+// The whole way: background, planes, joints, refit beside the seam, start. Refuses with a reason
+// when in doubt. The result depends on nothing but the arguments; seed: the scan's id.
+SeamResult find_seam(const ScanCloud& scan, const Background& background,
+                     const SeamFindingSettings& settings, std::uint64_t seed);
+
+// The largest plane of a cloud, turned to the side on which more points lie. For clouds that come
+// without background. Nothing where there is none.
+std::optional<Plane> dominant_plane(const ScanCloud& cloud, std::uint64_t seed);
+
+// Takes for background what lies on a plane, up to five times the cloud's own tolerance above it,
+// and all below.
+class PlaneBackground : public Background {
+ public:
+  PlaneBackground(const ScanCloud& cloud, const Plane& plane);
+  bool contains(const Eigen::Vector3d& point) const override;
+
+ private:
+  Plane plane_;
+  double height_;
+};
+
+// Takes nothing for background.
+class NoBackground : public Background {
+ public:
+  bool contains(const Eigen::Vector3d&) const override { return false; }
+};
+
+}  // namespace arcstart

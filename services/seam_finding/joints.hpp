@@ -1,0 +1,54 @@
+// Every pair of faces that may be a joint, ranked: angle (Eq. 6), concavity, contact along the
+// line.
+#pragma once
+
+#include <array>
+#include <string>
+#include <vector>
+
+#include "services/seam_finding/course.hpp"
+#include "services/seam_finding/planes.hpp"
+
+namespace arcstart {
+
+struct JointSearch {
+  double angle = 1.5708;          // theta of Eq. 6; rad
+  double angle_tolerance = 0.35;  // epsilon of Eq. 6; rad
+  double contact = 6;             // a plate is at the seam where its points come so near; mm
+  double tolerance = 0.5;         // of a point's distance from its plane; mm
+  int stripes_min = 5;
+  double length_min = 15;  // of the seam where both plates were seen; mm
+  CourseSearch course;
+};
+
+struct Joint {
+  std::array<int, 2> faces{};  // indices
+  std::array<Plate, 2> plates;
+  Line line;             // along the search direction
+  double angle = 0;      // between the open sides; rad
+  double concavity = 0;  // share of each plate's points beside the line that lie before the other
+                         // plate, the smaller
+  double score = 0;      // mm of seam, less for what is not as it should be
+  Course course;
+  double explained = 0;  // share of all points beside the line that lie on the two plates' planes
+  std::string flaw;      // why it is no joint, empty where it may be one
+
+  Eigen::Vector3d start() const { return line.at(course.begin); }
+  Eigen::Vector3d end() const { return line.at(course.end); }
+};
+
+// Turns the planes' normals to the side they were seen from. Returns for each whether that is
+// certain: it is not where a viewpoint that is only assumed, or is the same for all of a cloud,
+// lies nearly in the plane.
+std::vector<bool> turn_to_sensor(const ScanCloud& cloud, std::vector<Face>& faces);
+
+// All pairs whose planes meet under the angle and touch, best first; those with a flaw behind those
+// without. `left`: the points that are not background.
+std::vector<Joint> rank_joints(const ScanCloud& cloud, const std::vector<int>& left,
+                               const std::vector<Face>& faces, const std::vector<bool>& certain,
+                               const JointSearch& search);
+
+// The same seam, found on two pieces of a plate.
+bool same_seam(const Joint& a, const Joint& b, double tolerance_mm);
+
+}  // namespace arcstart

@@ -1,0 +1,55 @@
+// Points sorted into cubic cells, so that what lies near a place is found without looking at the
+// rest.
+#pragma once
+
+#include <Eigen/Core>
+#include <cstdint>
+#include <span>
+#include <vector>
+
+namespace arcstart {
+
+class NeighbourGrid {
+ public:
+  // The points must outlive the grid. Coordinates beyond +-1e6 cells share the outermost cells.
+  NeighbourGrid(const std::vector<Eigen::Vector3d>& points, double cell_mm);
+
+  using Cell = Eigen::Vector3i;
+  Cell cell_of(const Eigen::Vector3d& point) const;
+
+  // Indices of the points in a cell, rising; empty for none.
+  std::span<const int> points_in(const Cell& cell) const;
+
+  // All cells that hold points, in a fixed order.
+  int cell_count() const { return static_cast<int>(keys_.size()); }
+  Cell cell(int index) const;
+  std::span<const int> points_in(int index) const;
+  int index_of(const Cell& cell) const;  // -1 for an empty cell
+
+  // Calls visit(index) for every occupied cell that touches this one, itself included.
+  template <class Visit>
+  void for_each_around(const Cell& middle, Visit visit) const {
+    for (int x = -1; x <= 1; ++x)
+      for (int y = -1; y <= 1; ++y)
+        for (int z = -1; z <= 1; ++z)
+          if (const int i = index_of(Cell(middle + Cell(x, y, z))); i >= 0) visit(i);
+  }
+
+  // Distances to the k nearest other points within the cells around, rising; fewer where there are
+  // fewer. Of a crowded cell only 256 points are looked at, evenly taken.
+  void nearest_distances(int point, int k, std::vector<double>& distances) const;
+
+  double cell_size() const { return cell_mm_; }
+  const std::vector<Eigen::Vector3d>& points() const { return points_; }
+
+ private:
+  static std::uint64_t key_of(const Cell& cell);
+  const std::vector<Eigen::Vector3d>& points_;
+  double cell_mm_;
+  std::vector<int> order_;           // point indices, cell by cell
+  std::vector<std::uint64_t> keys_;  // of the occupied cells, rising
+  std::vector<int> begins_;          // of each cell in order_, and the end
+  std::vector<int> slots_;           // hash table of indices into keys_, -1 for none
+};
+
+}  // namespace arcstart

@@ -1,0 +1,42 @@
+// Least-squares planes from sums over points.
+#pragma once
+
+#include <Eigen/Core>
+
+#include "common/geometry.hpp"
+
+namespace arcstart {
+
+// Ten sums over points, from which the best plane follows; two of them add up. Points are taken
+// relative to an origin near them, so that no digits are lost.
+class PlaneSums {
+ public:
+  explicit PlaneSums(const Eigen::Vector3d& origin = Eigen::Vector3d::Zero()) : origin_(origin) {}
+
+  void add(const Eigen::Vector3d& point, double weight = 1) {
+    const Eigen::Vector3d p = point - origin_;
+    weight_ += weight;
+    sum_ += weight * p;
+    squares_.noalias() += weight * p * p.transpose();
+  }
+  void add(const PlaneSums& other);  // of any origin
+
+  struct Fit {
+    Plane plane;               // normal of either sign
+    Eigen::Vector3d centroid;  // mm
+    double rms = 0;            // distance of the points from the plane; mm
+    Eigen::Vector2d spread;    // standard deviation within the plane, small and large; mm
+  };
+  // Needs a weight above 0; three points not on a line make the plane a definite one (spread[0] >
+  // 0).
+  Fit fit() const;
+  double weight() const { return weight_; }
+
+ private:
+  Eigen::Vector3d origin_;
+  double weight_ = 0;
+  Eigen::Vector3d sum_ = Eigen::Vector3d::Zero();
+  Eigen::Matrix3d squares_ = Eigen::Matrix3d::Zero();
+};
+
+}  // namespace arcstart

@@ -1,0 +1,73 @@
+#include "services/seam_finding/refit.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include "services/seam_finding/outliers.hpp"
+
+namespace arcstart {
+namespace {
+
+constexpr int kPasses = 2;
+constexpr int kLeastPoints = 20;
+constexpr double kBendWidth =
+    1.2;                         // the stripe's centre is drawn aside so near the other plate; mm
+constexpr double kOverhang = 3;  // beyond the seam's ends; mm
+
+std::vector<int> beside(const ScanCloud& cloud, const Joint& joint, int plate, const Refit& refit) {
+  const double bend = std::max(kBendWidth, 2 * refit.tolerance);
+  std::vector<int> points;
+  for (const int i : joint.plates[plate].points) {
+    const Eigen::Vector3d& point = cloud.points[i];
+    const double t = joint.line.along(point);
+    if (cloud.origins[i].segment_end || joint.line.distance(point) > refit.distance ||
+        t < joint.course.begin - kOverhang || t > joint.course.end + kOverhang ||
+        std::abs(joint.plates[1 - plate].plane.signed_distance(point)) < bend)
+      continue;
+    points.push_back(i);
+  }
+  return points;
+}
+
+// Distances from the plane beyond three standard deviations, told by the median, do not count.
+double usual_deviation(const std::vector<Eigen::Vector3d>& points, const Plane& plane) {
+  std::vector<double> distances;
+  for (const auto& point : points) distances.push_back(std::abs(plane.signed_distance(point)));
+  const auto middle = distances.begin() + static_cast<std::ptrdiff_t>(distances.size() / 2);
+  std::nth_element(distances.begin(), middle, distances.end());
+  return 1.4826 * *middle;
+}
+
+}  // namespace
+
+void refit_joint(const ScanCloud& cloud, Joint& joint, const Refit& refit,
+                 const CourseSearch& search) {
+  for (int pass = 0; pass < kPasses; ++pass) {
+    std::array<Plane, 2> planes = {joint.plates[0].plane, joint.plates[1].plane};
+    for (int plate = 0; plate < 2; ++plate) {
+      auto chosen = beside(cloud, joint, plate, refit);
+      if (static_cast<int>(chosen.size()) < kLeastPoints)
+        continue;  // the face's own plane is better
+      if (refit.neighbours > 0)
+        chosen =
+            without_outliers(cloud, chosen, refit.neighbours, refit.deviations, search.spacing);
+      std::vector<Eigen::Vector3d> points;
+      for (const int i : chosen) points.push_back(cloud.points[i]);
+      planes[plate] = refine_plane(points, planes[plate], refit.tolerance);
+      planes[plate] = refine_plane(points, planes[plate],
+                                   std::max(1e-3, 3 * usual_deviation(points, planes[plate])));
+    }
+    const auto line =
+        intersect(planes[0], planes[1], joint.line.at((joint.course.begin + joint.course.end) / 2));
+    if (!line) return;
+    joint.plates[0].plane = planes[0];
+    joint.plates[1].plane = planes[1];
+    const bool along = line->direction.dot(joint.line.direction) > 0;
+    joint.line = {line->point, along ? line->direction : Eigen::Vector3d(-line->direction)};
+    joint.angle = M_PI - angle_between(planes[0].normal, planes[1].normal);
+    joint.course = find_course(cloud, joint.plates, joint.line, search);
+    if (joint.course.stripes == 0) return;
+  }
+}
+
+}  // namespace arcstart

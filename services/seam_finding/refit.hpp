@@ -1,0 +1,21 @@
+// A joint measured again by what lies beside its seam.
+#pragma once
+
+#include "services/seam_finding/joints.hpp"
+
+namespace arcstart {
+
+struct Refit {
+  double distance = 30;  // from the seam up to which points count; mm
+  int neighbours = 10;   // of statistical outlier removal, 0 for none
+  double deviations = 3;
+  double tolerance = 0.5;  // of a point's distance from its plate; mm
+};
+
+// Least-squares planes of both plates from the points beside the seam, without those so near the
+// other plate that the stripe bends there, segment ends and outliers; then the line and the course
+// anew.
+void refit_joint(const ScanCloud& cloud, Joint& joint, const Refit& refit,
+                 const CourseSearch& search);
+
+}  // namespace arcstart

@@ -1,0 +1,211 @@
+#include "services/seam_finding/scan_answer.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+
+#include "services/seam_finding/find_seam.hpp"
+
+namespace arcstart {
+namespace {
+
+constexpr std::int64_t kLongestScan = 100'000;  // frames: a seq beyond is damage, not a scan
+
+void copy(const Eigen::Vector3d& from, double to[3]) { std::copy(from.begin(), from.end(), to); }
+
+template <std::size_t N>
+void fill(double (&matrix)[N][N], double value) {
+  for (auto& row : matrix) std::fill(std::begin(row), std::end(row), value);
+}
+
+// All that is not determined says so.
+seam_t empty_answer(const CollectedScan& scan) {
+  seam_t seam{};
+  // A scan that never ended is dated by its begin, so that the answer depends on no arrival.
+  seam.utime = scan.state.end_utime != 0 ? scan.state.end_utime : scan.state.begin_utime;
+  seam.run_id = scan.state.run_id;
+  seam.scan_id = scan.state.scan_id;
+  for (auto* covariance :
+       {&seam.start_covariance, &seam.start_systematic, &seam.end_covariance, &seam.end_systematic})
+    fill(*covariance, -1);
+  seam.direction_deviation = seam.angle_deviation = seam.gap = seam.gap_deviation =
+      seam.polyline_deviation = -1;
+  std::fill(std::begin(seam.normal_deviations), std::end(seam.normal_deviations), -1);
+  seam.torch_quaternion[0] = 1;
+  const ScanBalance balance = balance_of(scan);
+  for (const profile_t& profile : scan.profiles) seam.points += profile.count;
+  seam.stripes = balance.stripes;
+  seam.stripes_empty = balance.empty;
+  seam.stripes_without_pose = balance.without_pose;
+  seam.images_lost = balance.images_lost;
+  seam.profiles_lost = balance.profiles_lost;
+  return seam;
+}
+
+seam_t refused(seam_t seam, const std::string& reason) {
+  seam.verdict = seam_t::REFUSED;
+  seam.reason = reason;
+  return seam;
+}
+
+void fill_in(seam_t& seam, const SeamResult& result) {
+  seam.background_points = static_cast<int>(result.background.size());
+  seam.seam_points = static_cast<int>(result.plates[0].size() + result.plates[1].size());
+  for (const auto& other : result.alternatives) {
+    seam_alternative_t alternative{};
+    alternative.joint_type = other.joint_type;
+    alternative.score = other.score;
+    copy(other.start, alternative.start);
+    copy(other.end, alternative.end);
+    alternative.reason = other.reason;
+    seam.alternatives.push_back(alternative);
+  }
+  seam.alternative_count = static_cast<int>(seam.alternatives.size());
+  seam.reason = result.reason;
+  if (result.verdict == SeamResult::Verdict::kRefused) seam.verdict = seam_t::REFUSED;
+  if (result.verdict == SeamResult::Verdict::kAmbiguous) seam.verdict = seam_t::AMBIGUOUS;
+  if (result.verdict != SeamResult::Verdict::kFound) return;
+  seam.verdict = seam_t::FOUND;
+  seam.remark += result.remark;
+  seam.joint_type = result.joint_type;
+  copy(result.start, seam.start);
+  copy(result.end, seam.end);
+  copy(result.direction, seam.direction);
+  copy(result.normals[0], seam.normals[0]);
+  copy(result.normals[1], seam.normals[1]);
+  seam.angle = result.angle;
+  if (result.ends_outside) seam.end_visibility = seam_t::OUTSIDE;
+}
+
+}  // namespace
+
+std::string ScanBalance::losses() const {
+  std::string text;
+  if (images_lost > 0) text += fmt::format("{} images lost at the camera, ", images_lost);
+  if (profiles_lost > 0) text += fmt::format("{} stripes lost on their way, ", profiles_lost);
+  if (without_pose > 0) text += fmt::format("{} stripes without position, ", without_pose);
+  if (!text.empty()) text.replace(text.size() - 2, 2, "; ");
+  return text;
+}
+
+ScanBalance balance_of(const CollectedScan& scan) {
+  ScanBalance balance;
+  for (const profile_t& profile : scan.profiles) {
+    if (profile.count > 0)
+      ++balance.stripes;
+    else if (profile.empty.starts_with("stripe empty: ") ||
+             profile.empty == "no point within the working range")
+      ++balance.empty;
+    else
+      ++balance.without_pose;
+  }
+  balance.images_lost = scan.state.lost;
+  balance.profiles_lost = scan.profiles_lost;
+  return balance;
+}
+
+ScanCloud cloud_of(const CollectedScan& scan) {
+  ScanCloud cloud;
+  std::int64_t expected = scan.state.first_seq >= 0 ? scan.state.first_seq
+                          : scan.profiles.empty()   ? 0
+                                                    : scan.profiles.front().seq;
+  const auto miss_until = [&](std::int64_t seq) {
+    for (int guard = 0; expected < seq && guard < kLongestScan; ++expected, ++guard)
+      end_stripe(cloud, ScanStripe::Seen::kMissing);
+  };
+  for (const profile_t& profile : scan.profiles) {
+    miss_until(profile.seq);
+    expected = profile.seq + 1;
+    const int stripe = static_cast<int>(cloud.stripes.size());
+    for (int i = 0; i < profile.count; ++i) {
+      cloud.points.emplace_back(profile.x[i], profile.y[i], profile.z[i]);
+      cloud.origins.push_back({stripe, profile.segment[i],
+                               profile.segment_end[i] == profile_t::SEGMENT_END,
+                               profile.deviation[i]});
+    }
+    const bool empty = profile.empty.starts_with("stripe empty: ") ||
+                       profile.empty == "no point within the working range";
+    end_stripe(cloud,
+               profile.count > 0 ? ScanStripe::Seen::kSeen
+               : empty           ? ScanStripe::Seen::kEmpty
+                                 : ScanStripe::Seen::kMissing,
+               Eigen::Map<const Eigen::Vector3d>(profile.camera_centre),
+               Eigen::Map<const Eigen::Vector3d>(profile.tool_position));
+  }
+  miss_until(scan.state.last_seq + 1);
+  return cloud;
+}
+
+std::string calibration_of(const CollectedScan& scan, std::string& error) {
+  std::string id;
+  for (const profile_t& profile : scan.profiles) {
+    if (profile.count == 0) continue;
+    if (id.empty()) id = profile.calibration_id;
+    if (profile.calibration_id != id) error = "the calibration changed within the scan: scan again";
+  }
+  return id;
+}
+
+StoredBackground::StoredBackground(const CollectedScan& scan, const SeamFindingSettings& settings)
+    : scan_id_(scan.state.scan_id), cloud_(std::make_unique<ScanCloud>(cloud_of(scan))) {
+  std::string error;
+  calibration_id_ = calibration_of(scan, error);
+  if (settings.background_rule == "neighbours")
+    model_ = std::make_unique<NeighbourBackground>(*cloud_, settings.background_neighbours,
+                                                   settings.background_distance_mm);
+  else
+    model_ = std::make_unique<SurfaceBackground>(*cloud_, settings.background_distance_mm);
+}
+
+std::string background_error(const CollectedScan& scan) {
+  if (!scan.refusal.empty()) return scan.refusal;
+  const ScanBalance balance = balance_of(scan);
+  std::string error;
+  if (balance.unknown() > 0)
+    error = "the background must be complete: " + balance.losses() + "scan it again";
+  else if (balance.stripes == 0)
+    error =
+        "the background scan has no points: is the laser on, and the table within the working "
+        "range?";
+  calibration_of(scan, error);
+  return error;
+}
+
+seam_t answer_background(const CollectedScan& scan, const std::string& error) {
+  seam_t seam = empty_answer(scan);
+  std::string ignored;
+  seam.calibration_id = calibration_of(scan, ignored);
+  if (!error.empty()) return refused(seam, error);
+  seam.verdict = seam_t::BACKGROUND_STORED;
+  seam.background_points = seam.points;
+  return seam;
+}
+
+seam_t answer_workpiece(const CollectedScan& scan, const StoredBackground* background,
+                        const SeamFindingSettings& settings) {
+  seam_t seam = empty_answer(scan);
+  if (!scan.refusal.empty()) return refused(seam, scan.refusal);
+  std::string error;
+  seam.calibration_id = calibration_of(scan, error);
+  if (!error.empty()) return refused(seam, error);
+  if (scan.state.images == 0) return refused(seam, "the scan has no images");
+  const ScanBalance balance = balance_of(scan);
+  const int expected = scan.state.images + balance.images_lost;
+  if (balance.unknown() > settings.lost_share_max * expected)
+    return refused(
+        seam, fmt::format("too little of the scan is known: {}of {}", balance.losses(), expected));
+  if (balance.stripes == 0)
+    return refused(
+        seam, "no stripe in any image: is the laser on, and the work within the working range?");
+  if (!background)
+    return refused(
+        seam,
+        "no background: scan the empty cell under this calibration first (scan --kind background)");
+  seam.background_scan_id = background->scan_id();
+  seam.remark = balance.losses();
+  fill_in(seam, find_seam(cloud_of(scan), background->model(), settings,
+                          static_cast<std::uint64_t>(scan.state.scan_id)));
+  return seam;
+}
+
+}  // namespace arcstart

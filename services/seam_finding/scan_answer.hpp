@@ -1,0 +1,59 @@
+// From a scan's messages to its answer, seam_t.
+#pragma once
+
+#include <arcstart/seam_t.hpp>
+#include <memory>
+#include <string>
+
+#include "services/seam_finding/background.hpp"
+#include "services/seam_finding/scan_cloud.hpp"
+#include "services/seam_finding/scan_collector.hpp"
+#include "services/seam_finding/seam_finding_settings.hpp"
+
+namespace arcstart {
+
+// What became of the images of a scan.
+struct ScanBalance {
+  int stripes = 0;        // profiles with points
+  int empty = 0;          // their stripe had no point
+  int without_pose = 0;   // no position or calibration for them
+  int images_lost = 0;    // at the camera
+  int profiles_lost = 0;  // between the camera and here
+
+  int unknown() const { return without_pose + images_lost + profiles_lost; }
+  std::string losses() const;  // "2 images lost at the camera, 1 profile lost; ", empty for none
+};
+ScanBalance balance_of(const CollectedScan& scan);
+
+// Points and stripes in order of seq, a kMissing stripe for each that is not there.
+ScanCloud cloud_of(const CollectedScan& scan);
+
+// The calibration of all its points; empty where there are none. Sets error where there are
+// several.
+std::string calibration_of(const CollectedScan& scan, std::string& error);
+
+// A background scan, ready for comparison.
+class StoredBackground {
+ public:
+  StoredBackground(const CollectedScan& scan, const SeamFindingSettings& settings);
+  std::int64_t scan_id() const { return scan_id_; }
+  const std::string& calibration_id() const { return calibration_id_; }
+  const Background& model() const { return *model_; }
+
+ private:
+  std::int64_t scan_id_;
+  std::string calibration_id_;
+  std::unique_ptr<ScanCloud> cloud_;  // the model refers to it
+  std::unique_ptr<Background> model_;
+};
+
+// Why a background scan cannot serve, empty where it can: every stripe must be there.
+std::string background_error(const CollectedScan& scan);
+
+// The answer to a workpiece scan; background: nullptr where there is none.
+seam_t answer_workpiece(const CollectedScan& scan, const StoredBackground* background,
+                        const SeamFindingSettings& settings);
+// The receipt for a background scan; error: why it cannot serve, empty where it is stored.
+seam_t answer_background(const CollectedScan& scan, const std::string& error);
+
+}  // namespace arcstart

@@ -1,0 +1,127 @@
+#include "services/seam_finding/scan_cloud.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include "services/seam_finding/neighbour_grid.hpp"
+#include "services/seam_finding/plane_fit.hpp"
+
+namespace arcstart {
+namespace {
+
+constexpr double kLeastMotion = 5;  // mm
+constexpr int kSamples = 400;       // places where the cloud is measured
+constexpr int kNeighbours = 8;
+constexpr std::size_t kCrowd = 64;  // points of a cell that are looked at for the noise
+
+double percentile(std::vector<double>& values, double share) {
+  if (values.empty()) return 0;
+  const auto middle =
+      values.begin() + static_cast<std::ptrdiff_t>(share * static_cast<double>(values.size() - 1));
+  std::nth_element(values.begin(), middle, values.end());
+  return *middle;
+}
+
+// The median way between neighbouring stripes, where the tool moves: it may stand still at the
+// scan's begin and end.
+double stripe_spacing(const ScanCloud& cloud) {
+  std::vector<double> steps;
+  for (std::size_t i = 1; i < cloud.stripes.size(); ++i) {
+    const ScanStripe &a = cloud.stripes[i - 1], &b = cloud.stripes[i];
+    if (a.seen == ScanStripe::Seen::kSeen && b.seen == ScanStripe::Seen::kSeen)
+      steps.push_back((b.tool_position - a.tool_position).norm());
+  }
+  const double fast = percentile(steps, 0.9);
+  std::erase_if(steps, [&](double step) { return step < 0.3 * fast; });
+  return percentile(steps, 0.5);
+}
+
+// Median distance to the eighth neighbour over that of a square grid of spacing 1.
+double point_spacing(const ScanCloud& cloud) {
+  Eigen::Vector3d low = cloud.points.front(), high = low;
+  for (const auto& point : cloud.points) low = low.cwiseMin(point), high = high.cwiseMax(point);
+  // Points of a cloud lie on surfaces: so many fill its box about so densely.
+  double cell = 4 * (high - low).norm() / std::sqrt(static_cast<double>(cloud.size()));
+  std::vector<double> found, distances;
+  for (int attempt = 0; attempt < 4 && cell > 1e-6; ++attempt, cell *= 2) {
+    const NeighbourGrid grid(cloud.points, cell);
+    found.clear();
+    const int step = std::max(1, cloud.size() / kSamples);
+    for (int i = 0; i < cloud.size(); i += step) {
+      grid.nearest_distances(i, kNeighbours, distances);
+      if (distances.size() == kNeighbours) found.push_back(distances.back());
+    }
+    if (2 * found.size() * static_cast<std::size_t>(step) > cloud.points.size()) break;
+  }
+  return percentile(found, 0.5) / std::sqrt(2.0);
+}
+
+// The typical distance of points from the plane through their neighbourhood. Edges and corners
+// raise it in places, so the lower third speaks for the flat ones.
+double surface_noise(const ScanCloud& cloud, double radius) {
+  if (!(radius > 0)) return 0;
+  const NeighbourGrid grid(cloud.points, radius);
+  std::vector<double> found;
+  const int step = std::max(1, cloud.size() / kSamples);
+  for (int i = 0; i < cloud.size(); i += step) {
+    const Eigen::Vector3d& centre = cloud.points[i];
+    PlaneSums sums(centre);
+    grid.for_each_around(grid.cell_of(centre), [&](int cell) {
+      const auto inside = grid.points_in(cell);
+      const std::size_t stride = 1 + inside.size() / kCrowd;
+      for (std::size_t j = 0; j < inside.size(); j += stride)
+        if ((cloud.points[inside[j]] - centre).squaredNorm() < radius * radius)
+          sums.add(cloud.points[inside[j]]);
+    });
+    if (sums.weight() < 8) continue;
+    const auto fit = sums.fit();
+    if (fit.spread[0] > 0.2 * radius)
+      found.push_back(fit.rms * std::sqrt(sums.weight() / (sums.weight() - 3)));
+  }
+  return percentile(found, 0.35);
+}
+
+}  // namespace
+
+void end_stripe(ScanCloud& cloud, ScanStripe::Seen seen, const Eigen::Vector3d& camera_centre,
+                const Eigen::Vector3d& tool_position) {
+  ScanStripe stripe;
+  stripe.seen = seen;
+  if (!cloud.stripes.empty())
+    stripe.first = cloud.stripes.back().first + cloud.stripes.back().count;
+  stripe.count = cloud.size() - stripe.first;
+  stripe.camera_centre = camera_centre;
+  stripe.tool_position = tool_position;
+  cloud.stripes.push_back(stripe);
+}
+
+ScanCloud unorganised_cloud(std::vector<Eigen::Vector3d> points) {
+  ScanCloud cloud;
+  cloud.points = std::move(points);
+  cloud.origins.resize(cloud.points.size());
+  return cloud;
+}
+
+std::optional<Eigen::Vector3d> search_direction(const ScanCloud& cloud) {
+  if (!cloud.organised()) return cloud.search_direction;
+  const ScanStripe *first = nullptr, *last = nullptr;
+  for (const ScanStripe& stripe : cloud.stripes) {
+    if (stripe.seen != ScanStripe::Seen::kSeen) continue;
+    if (first == nullptr) first = &stripe;
+    last = &stripe;
+  }
+  if (first == nullptr) return std::nullopt;
+  const Eigen::Vector3d way = last->tool_position - first->tool_position;
+  if (way.norm() < kLeastMotion) return std::nullopt;
+  return way.normalized();
+}
+
+Sampling measure_sampling(const ScanCloud& cloud) {
+  Sampling sampling;
+  if (cloud.points.size() < 16) return sampling;
+  sampling.spacing = cloud.organised() ? stripe_spacing(cloud) : point_spacing(cloud);
+  sampling.noise = surface_noise(cloud, 3 * sampling.spacing);
+  return sampling;
+}
+
+}  // namespace arcstart

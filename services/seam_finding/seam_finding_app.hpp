@@ -1,0 +1,47 @@
+// The service `seam_finding`: <SENSOR>_PROFILE and <SENSOR>_SCAN in, <SENSOR>_SEAM out, one for
+// each scan.
+#pragma once
+
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "common/service.hpp"
+#include "services/seam_finding/scan_answer.hpp"
+#include "services/seam_finding/scan_store.hpp"
+
+namespace arcstart {
+
+class SeamFindingApp : public App {
+ public:
+  // The bus must outlive the app. Without a state folder nothing touches the disk. Throws
+  // ScanStoreError where the folder cannot be made.
+  SeamFindingApp(Bus& bus, const SeamFindingSettings& settings, const Instance& instance);
+
+  // Repeats the answer at 1 Hz until the next scan starts, and gives up a scan whose chain is dead.
+  void tick(std::int64_t now_utime) override;
+  Health health() const override;
+
+ private:
+  void take(const scan_t& state);
+  void take(const profile_t& profile);
+  void answer_decided();
+  void take_background(const CollectedScan& scan);
+  const StoredBackground* background_for(const CollectedScan& scan) const;
+  void send(std::int64_t scan_id, const seam_t& seam);
+
+  Bus& bus_;
+  SeamFindingSettings settings_;
+  std::string seam_channel_;
+  ScanCollector collector_;
+  ScanStore store_;
+  std::vector<std::unique_ptr<StoredBackground>> backgrounds_;  // oldest first
+
+  std::vector<std::uint8_t> answer_;  // as sent, empty once the next scan has started
+  std::int64_t answered_scan_ = 0;
+  // us, steady; for repetition and dead chains alone. heard_: the last profile while a scan waits.
+  std::int64_t next_repeat_ = 0, heard_ = 0;
+  std::string store_error_;
+};
+
+}  // namespace arcstart

@@ -1,0 +1,77 @@
+// Section `seam_finding` of cell.yaml.
+#pragma once
+
+#include <string>
+
+#include "common/configuration.hpp"
+
+namespace arcstart {
+
+struct SeamFindingSettings {
+  // Background. `surface`: nearer than the distance to the background's local surface.
+  // `neighbours`: the paper's rule, the K-th nearest background point is nearer than that; it needs
+  // stripes closer together than the distance.
+  std::string background_rule = "surface";
+  double background_distance_mm = 1.5;
+  int background_neighbours = 3;  // K
+
+  // Planes. `ranked`: all planes of what is left, and of all their pairs the best joint. `largest`:
+  // the paper's way, the largest plane and the largest second one under Eq. 6; it takes a large box
+  // for the workpiece.
+  std::string plane_rule = "ranked";
+  int planes_max = 16;
+  int plane_points_min = 30;  // a plane of fewer points is none
+  double plane_tolerance_mm =
+      0;  // a point on a plane lies no farther from it; 0: from the cloud's own noise
+  double angle_deg = 90;            // theta of Eq. 6: between the plates
+  double angle_tolerance_deg = 20;  // epsilon of Eq. 6
+  double refit_distance_mm = 30;    // plates are fitted again to what lies so near the seam
+  int outlier_neighbours =
+      10;  // statistical outlier removal before that fit; 0: none. Never before the ends
+  double outlier_deviations =
+      3;  // a point is dropped whose mean distance to them is so far above the plate's mean
+
+  // Start. `stripe`: half-way between the first stripe that crosses both plates and the one before
+  // it. `centroid`: the paper's way, the centroid of the first x points of both plates along the
+  // seam.
+  std::string start_rule = "stripe";
+  int start_points = 10;  // x
+
+  // When to refuse.
+  int stripes_min = 5;  // with points of both plates at the seam
+  double ambiguity_ratio =
+      1.5;  // a second joint whose score comes within this factor makes it ambiguous
+  double lost_share_max =
+      0.25;  // of a scan's images without a profile, or with one of unknown position
+  double dead_chain_s =
+      5;  // real time without a word from the chain before an open scan is given up
+
+  int backgrounds_kept = 5;  // newest background scans kept in the state folder
+  int results_kept = 50;     // newest results kept there
+
+  template <class Visitor>
+  void visit(Visitor& visitor) {
+    visitor("background_rule", background_rule, one_of({"surface", "neighbours"}));
+    visitor("background_distance_mm", background_distance_mm, between(0.05, 20));
+    visitor("background_neighbours", background_neighbours, between(1, 50));
+    visitor("plane_rule", plane_rule, one_of({"ranked", "largest"}));
+    visitor("planes_max", planes_max, between(2, 64));
+    visitor("plane_points_min", plane_points_min, between(10, 100000));
+    visitor("plane_tolerance_mm", plane_tolerance_mm, between(0, 20));
+    visitor("angle_deg", angle_deg, between(30, 150));
+    visitor("angle_tolerance_deg", angle_tolerance_deg, between(1, 45));
+    visitor("refit_distance_mm", refit_distance_mm, between(5, 500));
+    visitor("outlier_neighbours", outlier_neighbours, between(0, 100));
+    visitor("outlier_deviations", outlier_deviations, between(0.5, 20));
+    visitor("start_rule", start_rule, one_of({"stripe", "centroid"}));
+    visitor("start_points", start_points, between(1, 1000));
+    visitor("stripes_min", stripes_min, between(3, 1000));
+    visitor("ambiguity_ratio", ambiguity_ratio, between(1, 10));
+    visitor("lost_share_max", lost_share_max, between(0, 0.5));
+    visitor("dead_chain_s", dead_chain_s, between(0.5, 600));
+    visitor("backgrounds_kept", backgrounds_kept, between(1, 1000));
+    visitor("results_kept", results_kept, between(1, 10000));
+  }
+};
+
+}  // namespace arcstart

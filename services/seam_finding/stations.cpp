@@ -1,0 +1,169 @@
+#include "services/seam_finding/stations.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <optional>
+
+namespace arcstart {
+namespace {
+
+constexpr double kSlantReach = 15;  // points so near the line say how the stripes cross it; mm
+constexpr double kSteepest = 3;     // slant, mm along the line for each mm away from it
+constexpr int kEmptyInARow = 3;     // so many stripes in a row that show nothing: nothing is there
+constexpr double kInfinity = std::numeric_limits<double>::infinity();
+
+// What one stripe shows of one plate beside the line.
+struct Sight {
+  int count = 0;
+  double r = 0, t = 0, rr = 0, rt = 0;  // sums of distance from and place along the line
+  double nearest = kInfinity;           // mm
+};
+
+// In a plate, away from the seam: toward the side that the other plate faces.
+Eigen::Vector3d away_from_seam(const Plate& plate, const Plate& other) {
+  const Eigen::Vector3d& n = plate.plane.normal;
+  return (other.plane.normal - other.plane.normal.dot(n) * n).normalized();
+}
+
+std::vector<Sight> sights_of(const ScanCloud& cloud, const Plate& plate, const Plate& other,
+                             const Line& line, double tolerance) {
+  const Eigen::Vector3d away = away_from_seam(plate, other);
+  std::vector<Sight> sights(cloud.stripes.size());
+  for (const int i : plate.points) {
+    const double r = away.dot(cloud.points[i] - line.point);
+    if (r <= tolerance || r > kSlantReach) continue;  // either plate's, or behind the other
+    const double t = line.along(cloud.points[i]);
+    Sight& s = sights[cloud.origins[i].stripe];
+    ++s.count;
+    s.r += r, s.t += t, s.rr += r * r, s.rt += r * t;
+    s.nearest = std::min(s.nearest, r);
+  }
+  return sights;
+}
+
+// A stripe lies on a plate in a straight line, t = crossing + slant * r, with one slant for the
+// whole scan.
+double slant_of(const std::vector<Sight>& sights) {
+  double rr = 0, rt = 0;
+  for (const Sight& s : sights) {
+    if (s.count < 2) continue;
+    rr += s.rr - s.r * s.r / s.count;
+    rt += s.rt - s.r * s.t / s.count;
+  }
+  return rr > 1 ? std::clamp(rt / rr, -kSteepest, kSteepest) : 0;
+}
+
+using Places = std::vector<std::optional<double>>;
+
+Places seen_crossings(const std::array<std::vector<Sight>, 2>& sights,
+                      const std::array<Plate, 2>& plates) {
+  Places places(sights[0].size());
+  const std::array<double, 2> slants = {slant_of(sights[0]), slant_of(sights[1])};
+  for (std::size_t k = 0; k < places.size(); ++k) {
+    double sum = 0;
+    int showing = 0;
+    for (int j = 0; j < 2; ++j)
+      if (const Sight& s = sights[j][k]; s.nearest <= plates[j].contact)
+        sum += (s.t - slants[j] * s.r) / s.count, ++showing;
+    if (showing > 0) places[k] = sum / showing;
+  }
+  return places;
+}
+
+int nearest_set(const Places& places, int from, int step) {
+  for (int i = from; i >= 0 && i < static_cast<int>(places.size()); i += step)
+    if (places[i]) return i;
+  return -1;
+}
+
+Places carried_crossings(const ScanCloud& cloud, const Places& seen, const Line& line) {
+  Places places(seen.size());
+  for (int k = 0; k < static_cast<int>(seen.size()); ++k) {
+    if (cloud.stripes[k].seen != ScanStripe::Seen::kSeen) continue;
+    const int before = nearest_set(seen, k, -1), after = nearest_set(seen, k, +1);
+    const int from = before < 0 || (after >= 0 && after - k < k - before) ? after : before;
+    if (from < 0) continue;
+    const Eigen::Vector3d way = cloud.stripes[k].tool_position - cloud.stripes[from].tool_position;
+    places[k] = *seen[from] + line.direction.dot(way);
+  }
+  return places;
+}
+
+// Of a missing stripe, from its neighbours'.
+double guessed_crossing(const Places& places, int k, double spacing) {
+  if (places[k]) return *places[k];
+  const int before = nearest_set(places, k, -1), after = nearest_set(places, k, +1);
+  if (before >= 0 && after >= 0)
+    return *places[before] + (*places[after] - *places[before]) * (k - before) / (after - before);
+  if (before >= 0) return *places[before] + spacing * (k - before);
+  return after >= 0 ? *places[after] - spacing * (after - k) : 0;
+}
+
+// One stripe that shows nothing may have been spoilt; several in a row show that nothing is there.
+void mark_unknown(const ScanCloud& cloud, std::vector<Station>& stations) {
+  const int count = static_cast<int>(stations.size());
+  for (int k = 0; k < count;) {
+    int end = k;
+    while (end < count && cloud.stripes[end].seen == ScanStripe::Seen::kEmpty) ++end;
+    for (int i = k; i < end; ++i) stations[i].known = end - k >= kEmptyInARow;
+    if (end < count) stations[end].known = cloud.stripes[end].seen == ScanStripe::Seen::kSeen;
+    k = end + 1;
+  }
+}
+
+std::vector<Station> stripe_stations(const ScanCloud& cloud, const std::array<Plate, 2>& plates,
+                                     const Line& line, const CourseSearch& search) {
+  const std::array<std::vector<Sight>, 2> sights = {
+      sights_of(cloud, plates[0], plates[1], line, search.tolerance),
+      sights_of(cloud, plates[1], plates[0], line, search.tolerance)};
+  const Places places = carried_crossings(cloud, seen_crossings(sights, plates), line);
+  std::vector<Station> stations(cloud.stripes.size());
+  for (int k = 0; k < static_cast<int>(stations.size()); ++k)
+    stations[k] = {guessed_crossing(places, k, search.spacing),
+                   {sights[0][k].nearest, sights[1][k].nearest},
+                   true};
+  mark_unknown(cloud, stations);
+  std::stable_sort(stations.begin(), stations.end(),
+                   [](const Station& a, const Station& b) { return a.along < b.along; });
+  return stations;
+}
+
+// A plate goes on where its points near the line leave no wide gap.
+std::vector<Station> piece_stations(const ScanCloud& cloud, const std::array<Plate, 2>& plates,
+                                    const Line& line, const CourseSearch& search) {
+  std::array<std::vector<double>, 2> places;
+  double low = kInfinity, high = -kInfinity;
+  for (int j = 0; j < 2; ++j) {
+    const Eigen::Vector3d away = away_from_seam(plates[j], plates[1 - j]);
+    for (const int i : plates[j].points)
+      if (const double r = away.dot(cloud.points[i] - line.point);
+          r > search.tolerance && r <= plates[j].contact)
+        places[j].push_back(line.along(cloud.points[i]));
+    if (places[j].empty()) return {};
+    std::sort(places[j].begin(), places[j].end());
+    low = std::min(low, places[j].front()), high = std::max(high, places[j].back());
+  }
+  std::vector<Station> stations;
+  for (double t = low - search.spacing; t <= high + search.spacing; t += search.spacing) {
+    Station station{t, {kInfinity, kInfinity}, true};
+    for (int j = 0; j < 2; ++j) {
+      const auto after = std::lower_bound(places[j].begin(), places[j].end(), t);
+      if (after != places[j].end() && after != places[j].begin() &&
+          *after - *(after - 1) <= plates[j].contact)
+        station.nearest[j] = 0;
+    }
+    stations.push_back(station);
+  }
+  return stations;
+}
+
+}  // namespace
+
+std::vector<Station> stations_along(const ScanCloud& cloud, const std::array<Plate, 2>& plates,
+                                    const Line& line, const CourseSearch& search) {
+  return cloud.organised() ? stripe_stations(cloud, plates, line, search)
+                           : piece_stations(cloud, plates, line, search);
+}
+
+}  // namespace arcstart

@@ -1,0 +1,41 @@
+// The places along a line at which a scan looked at both plates.
+#pragma once
+
+#include <array>
+#include <vector>
+
+#include "common/geometry.hpp"
+#include "services/seam_finding/scan_cloud.hpp"
+
+namespace arcstart {
+
+// A plate's part in a joint.
+struct Plate {
+  Plane plane;              // normal out of the metal, toward the sensor
+  double contact = 6;       // a point so near the seam's line stands for the plate there; mm
+  std::vector<int> points;  // indices into the cloud, rising
+};
+
+struct CourseSearch {
+  double spacing = 1;      // between stripes, or points of an unorganised cloud; mm
+  double tolerance = 0.5;  // of a point's distance from its plate; mm
+  double bridge = 20;      // a seam goes on behind an interruption no longer than this; mm
+};
+
+// A stripe that crosses the line, or without stripes a piece of the line.
+struct Station {
+  double along = 0;  // where it crosses; mm
+  std::array<double, 2>
+      nearest{};      // distance of each plate's nearest point from the line, infinite for none; mm
+  bool known = true;  // false: the stripe is missing, or spoilt
+};
+
+// A station for every stripe of the scan, also those that cross the line where no plate is, in the
+// order of their places. A stripe's crossing is extrapolated from the points beside the line, with
+// the slant at which stripes cross the plates; where it shows no plate, it is carried there by the
+// tool's way from the nearest stripe that does. A cloud without stripes has one for every `spacing`
+// of the line.
+std::vector<Station> stations_along(const ScanCloud& cloud, const std::array<Plate, 2>& plates,
+                                    const Line& line, const CourseSearch& search);
+
+}  // namespace arcstart
