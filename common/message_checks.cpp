@@ -180,7 +180,9 @@ std::string meaning_error(const seam_t& m) {
   checks
       .require(m.verdict >= seam_t::FOUND && m.verdict <= seam_t::BACKGROUND_STORED,
                "unknown verdict")
-      .require(m.verdict == seam_t::FOUND || !m.reason.empty(), "no seam, and no reason why")
+      .require(
+          m.verdict == seam_t::FOUND || m.verdict == seam_t::BACKGROUND_STORED || !m.reason.empty(),
+          "no seam, and no reason why")
       .require(are_lengths(m.start) && are_lengths(m.end) && all_finite(m.direction),
                "seam not finite")
       .require(m.verdict != seam_t::FOUND || is_unit(m.direction, 3),
