@@ -12,7 +12,9 @@
 namespace arcstart {
 namespace {
 
-constexpr double piece_px = 6;  // a stripe's image is drawn in strokes no longer than this
+// A stripe's image is drawn in strokes no longer than this share of the image's width, each of one
+// brightness and width: 6 px in 1600.
+constexpr double longest_stroke = 6.0 / 1600;
 constexpr double least_ghost_share = 0.02;
 
 // The sheet is as thick as its Gaussian: it is cast as thin layers, so that a stripe that runs off
@@ -138,7 +140,7 @@ void ImageRenderer::draw(const Scene& scene, const RigidTransform& T_base_tool,
 
   // A lit line with its light's share and the sheet's sigma along it, in strokes.
   const auto draw_line = [&](const LitLine& line, double weight, double sigma) {
-    const std::vector<SceneView::Point> points = view.follow(line, piece_px);
+    const std::vector<SceneView::Point> points = view.follow(line, longest_stroke * sensor_.width);
     for (std::size_t i = 0; i + 1 < points.size(); ++i) {
       SceneView::Point begin = points[i], end = points[i + 1];
       if (!begin.visible && !end.visible) continue;

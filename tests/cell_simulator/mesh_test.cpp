@@ -2,6 +2,7 @@
 #include <catch2/catch.hpp>
 #include <numbers>
 
+#include "services/cell_simulator/interval.hpp"
 #include "services/cell_simulator/tool_shapes.hpp"
 #include "services/cell_simulator/triangle_hierarchy.hpp"
 #include "tests/cell_simulator/triangle_soup.hpp"
@@ -65,6 +66,11 @@ TEST_CASE("footprints overlap where they do") {
   CHECK_FALSE(overlap(still, footprint(square, aside, 0)));
   CHECK(overlap(still, footprint(square, turned, 0)));
   CHECK(overlap(still, footprint(square, aside, 0.31)));
+  // Corner to edge: only an edge of the turned one parts them.
+  RigidTransform before_corner = turned;
+  before_corner.translation() << 1.75, 1.75, 0;
+  CHECK_FALSE(overlap(still, footprint(square, before_corner, 0)));
+  CHECK_FALSE(overlap(footprint(square, before_corner, 0), still));
   CHECK(
       overlap(footprint(square, RigidTransform::Identity(), -0.9), still));  // one within the other
 }
@@ -95,12 +101,17 @@ TEST_CASE("rays through the tree hit what rays through every triangle hit") {
             (triangle >= 0 && test::nearest_share(one, from, to) == expected ? 0 : 1));
     }
     CHECK(tree.blocked(from, to, 0, -1) == (expected < 1));
-    // A clearance that reaches back past the hit leaves the way free of it, and so does passing it
-    // over.
+    // A clearance that reaches back past the hit leaves the way free of it; passing one triangle
+    // over leaves the others.
     if (expected < 1) {
       const double rest = (1 - expected) * (to - from).norm();
       CHECK(tree.blocked(from, to, rest - 1e-6, -1));
       CHECK_FALSE(tree.blocked(from, to, rest + 1e-6, -1));
+      double next = std::numeric_limits<double>::infinity();
+      for (const auto& candidate : all.triangles)
+        if (const double share = test::share_to(all, candidate, from, to); share != expected)
+          next = std::min(next, share);
+      CHECK(tree.blocked(from, to, 0, triangle) == (next < 1));
     }
   }
   CHECK(hits > 100);
@@ -147,4 +158,22 @@ TEST_CASE("a tree of nothing is cut and blocked by nothing") {
   CHECK(cuts.empty());
   CHECK_FALSE(tree.blocked({0, 0, 0}, {1, 1, 1}, 0, -1));
   CHECK(tree.first_hit({0, 0, 0}, {1, 1, 1}) > 1);
+}
+
+TEST_CASE("an interval keeps what every condition leaves") {
+  Interval part;
+  part.keep(1, 2);  // everywhere
+  CHECK((part.begin == 0 && part.end == 1));
+  part.keep(-1, 1);  // from 1/2 on
+  part.keep(-1, 3);  // from 1/4 on: already narrower
+  CHECK(part.begin == Approx(0.5));
+  part.keep(3, -1);  // up to 3/4
+  part.keep(9, -1);  // up to 9/10
+  CHECK(part.end == Approx(0.75));
+  CHECK_FALSE(part.empty());
+  part.keep(0.4, -0.6);  // up to 0.4
+  CHECK(part.empty());
+  Interval nowhere;
+  nowhere.keep(-1, -2);
+  CHECK(nowhere.empty());
 }

@@ -28,10 +28,10 @@ StripeCanvas even_light(double grey, double speckle) {
 }  // namespace
 
 TEST_CASE("dark noise is read noise and the ambient light's shot noise") {
+  SensorSettings settings;
+  settings.read_noise_grey = 1.5;
+  SensorNoise noise(settings);
   for (const double gain : {1.0, 2.0}) {
-    SensorSettings settings;
-    settings.read_noise_grey = 1.5;
-    SensorNoise noise(settings);
     StripeCanvas canvas(0.5);
     canvas.clear(640, 480);
     std::vector<std::uint8_t> grey(640 * 480);
@@ -153,10 +153,15 @@ TEST_CASE("strokes laid end to end make one even line") {
   }
   CHECK(worst < 0.01);
   CHECK(sum == Approx(100 * 1.7 * std::sqrt(2 * 3.14159265) * (end - begin).norm()).epsilon(1e-3));
+  CHECK(pieces.lit(100 / 32, 68 / 8));
   // Nothing is left of it afterwards, and a stroke outside or without length leaves nothing.
   whole.clear(200, 150);
   whole.add({{300, 20}, {320, 30}, 2, 100, 0});
   whole.add({{50, 20}, {50, 20}, 2, 100, 0});
-  for (int row = 0; row < 150; ++row)
-    for (int column = 0; column < 200; ++column) REQUIRE(whole.light(row)[column] == 0);
+  for (int row = 0; row < 150; ++row) {
+    for (int column = 0; column < 200; ++column) {
+      REQUIRE(whole.light(row)[column] == 0);
+      REQUIRE_FALSE(whole.lit(column / 32, row / 8));
+    }
+  }
 }
