@@ -4,12 +4,11 @@
 
 #include <algorithm>
 
-#include "services/seam_finding/find_seam.hpp"
-
 namespace arcstart {
 namespace {
 
 constexpr std::int64_t kLongestScan = 100'000;  // frames: a seq beyond is damage, not a scan
+constexpr double kFarthest = 1e5;               // mm: a point farther away is damage, too
 
 void copy(const Eigen::Vector3d& from, double to[3]) { std::copy(from.begin(), from.end(), to); }
 
@@ -18,20 +17,12 @@ void fill(double (&matrix)[N][N], double value) {
   for (auto& row : matrix) std::fill(std::begin(row), std::end(row), value);
 }
 
-// All that is not determined says so.
 seam_t empty_answer(const CollectedScan& scan) {
-  seam_t seam{};
+  seam_t seam = empty_seam();
   // A scan that never ended is dated by its begin, so that the answer depends on no arrival.
   seam.utime = scan.state.end_utime != 0 ? scan.state.end_utime : scan.state.begin_utime;
   seam.run_id = scan.state.run_id;
   seam.scan_id = scan.state.scan_id;
-  for (auto* covariance :
-       {&seam.start_covariance, &seam.start_systematic, &seam.end_covariance, &seam.end_systematic})
-    fill(*covariance, -1);
-  seam.direction_deviation = seam.angle_deviation = seam.gap = seam.gap_deviation =
-      seam.polyline_deviation = -1;
-  std::fill(std::begin(seam.normal_deviations), std::end(seam.normal_deviations), -1);
-  seam.torch_quaternion[0] = 1;
   const ScanBalance balance = balance_of(scan);
   for (const profile_t& profile : scan.profiles) seam.points += profile.count;
   seam.stripes = balance.stripes;
@@ -48,9 +39,50 @@ seam_t refused(seam_t seam, const std::string& reason) {
   return seam;
 }
 
+bool stripe_was_empty(const profile_t& profile) {
+  return profile.count == 0 && (profile.empty.starts_with("stripe empty: ") ||
+                                profile.empty == "no point within the working range");
+}
+
+// A whole image without a stripe tells that nothing was there; one that was cut short, or of which
+// the position is not known, tells nothing.
+ScanStripe::Seen seen_in(const profile_t& profile) {
+  if (profile.count > 0) return ScanStripe::Seen::kSeen;
+  const bool nothing = profile.empty.starts_with("stripe empty: no ") ||
+                       profile.empty == "no point within the working range";
+  return nothing ? ScanStripe::Seen::kEmpty : ScanStripe::Seen::kMissing;
+}
+
+int missing_of(const ScanCloud& cloud) {
+  return static_cast<int>(std::count_if(
+      cloud.stripes.begin(), cloud.stripes.end(),
+      [](const ScanStripe& stripe) { return stripe.seen == ScanStripe::Seen::kMissing; }));
+}
+
+bool two_missing_in_a_row(const ScanCloud& cloud) {
+  return std::adjacent_find(cloud.stripes.begin(), cloud.stripes.end(),
+                            [](const ScanStripe& a, const ScanStripe& b) {
+                              return a.seen == ScanStripe::Seen::kMissing &&
+                                     b.seen == ScanStripe::Seen::kMissing;
+                            }) != cloud.stripes.end();
+}
+
+}  // namespace
+
+seam_t empty_seam() {
+  seam_t seam{};
+  for (auto* covariance :
+       {&seam.start_covariance, &seam.start_systematic, &seam.end_covariance, &seam.end_systematic})
+    fill(*covariance, -1);
+  seam.direction_deviation = seam.angle_deviation = seam.gap = seam.gap_deviation =
+      seam.polyline_deviation = -1;
+  std::fill(std::begin(seam.normal_deviations), std::end(seam.normal_deviations), -1);
+  seam.torch_quaternion[0] = 1;
+  return seam;
+}
+
 void fill_in(seam_t& seam, const SeamResult& result) {
   seam.background_points = static_cast<int>(result.background.size());
-  seam.seam_points = static_cast<int>(result.plates[0].size() + result.plates[1].size());
   for (const auto& other : result.alternatives) {
     seam_alternative_t alternative{};
     alternative.joint_type = other.joint_type;
@@ -68,6 +100,7 @@ void fill_in(seam_t& seam, const SeamResult& result) {
   seam.verdict = seam_t::FOUND;
   seam.remark += result.remark;
   seam.joint_type = result.joint_type;
+  seam.seam_points = static_cast<int>(result.plates[0].size() + result.plates[1].size());
   copy(result.start, seam.start);
   copy(result.end, seam.end);
   copy(result.direction, seam.direction);
@@ -77,28 +110,20 @@ void fill_in(seam_t& seam, const SeamResult& result) {
   if (result.ends_outside) seam.end_visibility = seam_t::OUTSIDE;
 }
 
-}  // namespace
-
 std::string ScanBalance::losses() const {
   std::string text;
-  if (images_lost > 0) text += fmt::format("{} images lost at the camera, ", images_lost);
-  if (profiles_lost > 0) text += fmt::format("{} stripes lost on their way, ", profiles_lost);
-  if (without_pose > 0) text += fmt::format("{} stripes without position, ", without_pose);
-  if (!text.empty()) text.replace(text.size() - 2, 2, "; ");
+  if (images_lost > 0) text += fmt::format("{} images lost at the camera; ", images_lost);
+  if (profiles_lost > 0) text += fmt::format("{} stripes lost on their way; ", profiles_lost);
+  if (without_pose > 0) text += fmt::format("{} stripes without position; ", without_pose);
   return text;
 }
 
 ScanBalance balance_of(const CollectedScan& scan) {
   ScanBalance balance;
-  for (const profile_t& profile : scan.profiles) {
-    if (profile.count > 0)
-      ++balance.stripes;
-    else if (profile.empty.starts_with("stripe empty: ") ||
-             profile.empty == "no point within the working range")
-      ++balance.empty;
-    else
-      ++balance.without_pose;
-  }
+  for (const profile_t& profile : scan.profiles)
+    ++(profile.count > 0           ? balance.stripes
+       : stripe_was_empty(profile) ? balance.empty
+                                   : balance.without_pose);
   balance.images_lost = scan.state.lost;
   balance.profiles_lost = scan.profiles_lost;
   return balance;
@@ -106,11 +131,12 @@ ScanBalance balance_of(const CollectedScan& scan) {
 
 ScanCloud cloud_of(const CollectedScan& scan) {
   ScanCloud cloud;
-  std::int64_t expected = scan.state.first_seq >= 0 ? scan.state.first_seq
-                          : scan.profiles.empty()   ? 0
-                                                    : scan.profiles.front().seq;
+  if (scan.profiles.empty()) return cloud;
+  const profile_t& first = scan.profiles.front();
+  std::int64_t expected =
+      scan.state.first_seq >= 0 ? scan.state.first_seq : first.seq - std::max(0, first.scan_index);
   const auto miss_until = [&](std::int64_t seq) {
-    for (int guard = 0; expected < seq && guard < kLongestScan; ++expected, ++guard)
+    for (std::int64_t i = 0; expected < seq && i < kLongestScan; ++expected, ++i)
       end_stripe(cloud, ScanStripe::Seen::kMissing);
   };
   for (const profile_t& profile : scan.profiles) {
@@ -118,18 +144,14 @@ ScanCloud cloud_of(const CollectedScan& scan) {
     expected = profile.seq + 1;
     const int stripe = static_cast<int>(cloud.stripes.size());
     for (int i = 0; i < profile.count; ++i) {
-      cloud.points.emplace_back(profile.x[i], profile.y[i], profile.z[i]);
+      const Eigen::Vector3d point(profile.x[i], profile.y[i], profile.z[i]);
+      if (point.cwiseAbs().maxCoeff() > kFarthest) continue;
+      cloud.points.push_back(point);
       cloud.origins.push_back({stripe, profile.segment[i],
                                profile.segment_end[i] == profile_t::SEGMENT_END,
                                profile.deviation[i]});
     }
-    const bool empty = profile.empty.starts_with("stripe empty: ") ||
-                       profile.empty == "no point within the working range";
-    end_stripe(cloud,
-               profile.count > 0 ? ScanStripe::Seen::kSeen
-               : empty           ? ScanStripe::Seen::kEmpty
-                                 : ScanStripe::Seen::kMissing,
-               Eigen::Map<const Eigen::Vector3d>(profile.camera_centre),
+    end_stripe(cloud, seen_in(profile), Eigen::Map<const Eigen::Vector3d>(profile.camera_centre),
                Eigen::Map<const Eigen::Vector3d>(profile.tool_position));
   }
   miss_until(scan.state.last_seq + 1);
@@ -139,9 +161,10 @@ ScanCloud cloud_of(const CollectedScan& scan) {
 std::string calibration_of(const CollectedScan& scan, std::string& error) {
   std::string id;
   for (const profile_t& profile : scan.profiles) {
-    if (profile.count == 0) continue;
-    if (id.empty()) id = profile.calibration_id;
-    if (profile.calibration_id != id) error = "the calibration changed within the scan: scan again";
+    if (profile.count > 0 && id.empty()) id = profile.calibration_id;
+    if ((profile.count > 0 && profile.calibration_id != id) ||
+        profile.empty.starts_with("calibration changed"))
+      error = "the calibration changed within the scan: scan again";
   }
   return id;
 }
@@ -160,15 +183,20 @@ StoredBackground::StoredBackground(const CollectedScan& scan, const SeamFindingS
 std::string background_error(const CollectedScan& scan) {
   if (!scan.refusal.empty()) return scan.refusal;
   const ScanBalance balance = balance_of(scan);
+  if (balance.stripes == 0)
+    return "the background scan has no points: is the laser on, and the table within the working "
+           "range?";
   std::string error;
-  if (balance.unknown() > 0)
-    error = "the background must be complete: " + balance.losses() + "scan it again";
-  else if (balance.stripes == 0)
-    error =
-        "the background scan has no points: is the laser on, and the table within the working "
-        "range?";
   calibration_of(scan, error);
-  return error;
+  if (!error.empty()) return error;
+  if (scan.state.end_reason == "camera lost")
+    return "the camera was lost in the background scan: scan again";
+  const ScanCloud cloud = cloud_of(scan);
+  const int missing = missing_of(cloud);
+  if (20 * missing > static_cast<int>(cloud.stripes.size()) || two_missing_in_a_row(cloud))
+    return fmt::format("the background is not complete, {} of {} stripes are missing: {}scan again",
+                       missing, cloud.stripes.size(), balance.losses());
+  return "";
 }
 
 seam_t answer_background(const CollectedScan& scan, const std::string& error) {
@@ -178,6 +206,7 @@ seam_t answer_background(const CollectedScan& scan, const std::string& error) {
   if (!error.empty()) return refused(seam, error);
   seam.verdict = seam_t::BACKGROUND_STORED;
   seam.background_points = seam.points;
+  seam.remark = balance_of(scan).losses();
   return seam;
 }
 
@@ -190,10 +219,15 @@ seam_t answer_workpiece(const CollectedScan& scan, const StoredBackground* backg
   if (!error.empty()) return refused(seam, error);
   if (scan.state.images == 0) return refused(seam, "the scan has no images");
   const ScanBalance balance = balance_of(scan);
-  const int expected = scan.state.images + balance.images_lost;
-  if (balance.unknown() > settings.lost_share_max * expected)
-    return refused(
-        seam, fmt::format("too little of the scan is known: {}of {}", balance.losses(), expected));
+  const ScanCloud cloud = cloud_of(scan);
+  const int missing = missing_of(cloud);
+  if (scan.profiles.empty() ||
+      missing > settings.lost_share_max * static_cast<double>(cloud.stripes.size()))
+    return refused(seam, fmt::format("too little of the scan is known, {} of {} stripes are "
+                                     "missing: {}scan again",
+                                     scan.profiles.empty() ? scan.state.images : missing,
+                                     std::max<std::size_t>(cloud.stripes.size(), scan.state.images),
+                                     balance.losses()));
   if (balance.stripes == 0)
     return refused(
         seam, "no stripe in any image: is the laser on, and the work within the working range?");
@@ -203,7 +237,8 @@ seam_t answer_workpiece(const CollectedScan& scan, const StoredBackground* backg
         "no background: scan the empty cell under this calibration first (scan --kind background)");
   seam.background_scan_id = background->scan_id();
   seam.remark = balance.losses();
-  fill_in(seam, find_seam(cloud_of(scan), background->model(), settings,
+  if (scan.state.end_reason == "camera lost") seam.remark += "the camera was lost in the scan; ";
+  fill_in(seam, find_seam(cloud, background->model(), settings,
                           static_cast<std::uint64_t>(scan.state.scan_id)));
   return seam;
 }

@@ -6,9 +6,8 @@
 #include <string>
 
 #include "services/seam_finding/background.hpp"
-#include "services/seam_finding/scan_cloud.hpp"
+#include "services/seam_finding/find_seam.hpp"
 #include "services/seam_finding/scan_collector.hpp"
-#include "services/seam_finding/seam_finding_settings.hpp"
 
 namespace arcstart {
 
@@ -20,16 +19,15 @@ struct ScanBalance {
   int images_lost = 0;    // at the camera
   int profiles_lost = 0;  // between the camera and here
 
-  int unknown() const { return without_pose + images_lost + profiles_lost; }
-  std::string losses() const;  // "2 images lost at the camera, 1 profile lost; ", empty for none
+  std::string losses() const;  // "2 images lost at the camera; ", empty for none
 };
 ScanBalance balance_of(const CollectedScan& scan);
 
-// Points and stripes in order of seq, a kMissing stripe for each that is not there.
+// Points and stripes in order of seq, a kMissing stripe for each of which is not known what it
+// would have shown.
 ScanCloud cloud_of(const CollectedScan& scan);
 
-// The calibration of all its points; empty where there are none. Sets error where there are
-// several.
+// The calibration of all its points; empty where there are none. Sets error where it changed.
 std::string calibration_of(const CollectedScan& scan, std::string& error);
 
 // A background scan, ready for comparison.
@@ -39,6 +37,7 @@ class StoredBackground {
   std::int64_t scan_id() const { return scan_id_; }
   const std::string& calibration_id() const { return calibration_id_; }
   const Background& model() const { return *model_; }
+  std::size_t points() const { return cloud_->points.size(); }
 
  private:
   std::int64_t scan_id_;
@@ -47,7 +46,8 @@ class StoredBackground {
   std::unique_ptr<Background> model_;
 };
 
-// Why a background scan cannot serve, empty where it can: every stripe must be there.
+// Why a background scan is not complete, empty where it can serve. Single stripes may be missing,
+// for the surface is known from those beside them: no more than one in twenty, no two in a row.
 std::string background_error(const CollectedScan& scan);
 
 // The answer to a workpiece scan; background: nullptr where there is none.
@@ -55,5 +55,11 @@ seam_t answer_workpiece(const CollectedScan& scan, const StoredBackground* backg
                         const SeamFindingSettings& settings);
 // The receipt for a background scan; error: why it cannot serve, empty where it is stored.
 seam_t answer_background(const CollectedScan& scan, const std::string& error);
+
+// A message in which all that is not determined says so.
+seam_t empty_seam();
+
+// Verdict, seam, alternatives and the numbers of points.
+void fill_in(seam_t& seam, const SeamResult& result);
 
 }  // namespace arcstart

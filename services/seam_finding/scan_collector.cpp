@@ -5,9 +5,11 @@
 namespace arcstart {
 namespace {
 
-constexpr std::size_t kMostOpen =
-    4;  // scans that may be open at a time; hostile ids must not fill memory
+// What comes over the network must not fill the memory.
+constexpr std::size_t kMostOpen = 4;
 constexpr std::size_t kMostProfiles = 20'000;  // of a scan: 20 minutes at 14 Hz
+constexpr std::size_t kMostPoints = 2'000'000;
+constexpr std::size_t kMostAnswered = 1000;
 
 // A scan's end as the next scan's state still tells it.
 scan_t previous_of(const scan_t& state) {
@@ -18,6 +20,7 @@ scan_t previous_of(const scan_t& state) {
   previous.scan_id = previous.begin_utime = state.previous_scan_id;
   previous.kind = state.previous_kind;
   previous.end_utime = state.previous_end_utime;
+  previous.first_seq = -1;  // not told
   previous.last_seq = state.previous_last_seq;
   previous.images = state.previous_images;
   return previous;
@@ -25,50 +28,93 @@ scan_t previous_of(const scan_t& state) {
 
 }  // namespace
 
+bool ScanCollector::OpenScan::is_decided() const {
+  if (!refusal.empty()) return true;
+  return has_ended() && (state->images == 0 || newest_seq >= state->last_seq);
+}
+
+ScanCollector::OpenScan* ScanCollector::find(std::int64_t scan_id) {
+  const auto scan = std::find_if(open_.begin(), open_.end(),
+                                 [&](const OpenScan& open) { return open.scan_id == scan_id; });
+  return scan == open_.end() ? nullptr : &*scan;
+}
+
+ScanCollector::OpenScan* ScanCollector::find_or_open(std::int64_t scan_id, std::int64_t run_id) {
+  if (std::find(answered_.begin(), answered_.end(), scan_id) != answered_.end()) return nullptr;
+  if (OpenScan* scan = find(scan_id)) return scan;
+  if (open_.size() == kMostOpen) open_.pop_front();
+  open_.emplace_back();
+  open_.back().scan_id = scan_id;
+  open_.back().run_id = run_id;
+  return &open_.back();
+}
+
+// A restarted sensor_capture never resumes a scan. Which of its profiles had come when that was
+// heard hangs on the two channels' pace, so none of them counts.
+void ScanCollector::refuse_older_runs(std::int64_t run_id) {
+  for (OpenScan& scan : open_) {
+    if (scan.run_id >= run_id || scan.has_ended()) continue;
+    scan.refusal = "sensor_capture restarted within the scan: scan again";
+    scan.profiles.clear();
+  }
+}
+
+void ScanCollector::take_end_of_previous(const scan_t& state) {
+  if (state.previous_scan_id == 0) return;
+  if (OpenScan* scan = find(state.previous_scan_id); scan && !scan->has_ended())
+    scan->state = previous_of(state);
+}
+
 void ScanCollector::take(const scan_t& state) {
-  for (auto& [id, scan] : open_)
-    if (scan.state && scan.state->state == scan_t::SCANNING && scan.state->run_id != state.run_id &&
-        scan.refusal.empty())
-      scan.refusal = "sensor_capture restarted within the scan: scan again";
-  if (state.previous_scan_id > decided_)
-    if (const auto before = open_.find(state.previous_scan_id);
-        before != open_.end() &&
-        (!before->second.state || before->second.state->state != scan_t::ENDED))
-      before->second.state = previous_of(state);
-  if (state.state == scan_t::IDLE || state.scan_id <= decided_) return;
-  OpenScan& scan = open_[state.scan_id];
-  if (!scan.state || scan.state->state != scan_t::ENDED) scan.state = state;
-  while (open_.size() > kMostOpen) open_.erase(open_.begin());
+  take_end_of_previous(state);
+  refuse_older_runs(state.run_id);
+  if (state.state == scan_t::IDLE || state.scan_id == 0) return;
+  OpenScan* scan = find_or_open(state.scan_id, state.run_id);
+  if (scan && !scan->has_ended()) scan->state = state;
 }
 
 void ScanCollector::take(const profile_t& profile) {
+  for (OpenScan& scan : open_)
+    if (scan.run_id == profile.run_id) scan.newest_seq = std::max(scan.newest_seq, profile.seq);
   if (profile.scan_id == 0) return;
-  for (auto& [id, scan] : open_)
-    if (id < profile.scan_id) scan.passed = true;
-  if (profile.scan_id <= decided_) return;
-  OpenScan& scan = open_[profile.scan_id];
-  if (scan.profiles.size() < kMostProfiles) scan.profiles.try_emplace(profile.seq, profile);
-  while (open_.size() > kMostOpen) open_.erase(open_.begin());
-}
-
-bool ScanCollector::is_decided(const OpenScan& scan) const {
-  if (!scan.state) return false;
-  if (!scan.refusal.empty()) return true;
-  if (scan.state->state != scan_t::ENDED) return false;
-  return scan.passed || scan.state->images == 0 || scan.profiles.contains(scan.state->last_seq);
+  OpenScan* scan = find_or_open(profile.scan_id, profile.run_id);
+  if (!scan || scan->run_id != profile.run_id || !scan->refusal.empty()) return;
+  scan->newest_seq = std::max(scan->newest_seq, profile.seq);
+  if (scan->profiles.try_emplace(profile.seq, profile).second) scan->points += profile.x.size();
+  if (scan->profiles.size() <= kMostProfiles && scan->points <= kMostPoints) return;
+  scan->refusal = "the scan has more points than memory is kept for: scan less, or thin it out";
+  scan->profiles.clear();
 }
 
 std::optional<CollectedScan> ScanCollector::next() {
-  if (open_.empty() || !is_decided(open_.begin()->second)) return {};
-  auto node = open_.extract(open_.begin());
-  OpenScan& scan = node.mapped();
-  decided_ = node.key();
+  const auto decided = std::find_if(open_.begin(), open_.end(),
+                                    [](const OpenScan& scan) { return scan.is_decided(); });
+  if (decided == open_.end()) return {};
+  // One heard of earlier, of which no end was ever told, will not end any more.
+  OpenScan& first = open_.front();
+  if (!first.is_decided()) {
+    first.refusal = "the scan's end was never told: scan again";
+    first.profiles.clear();
+  }
+  CollectedScan scan = close(first);
+  open_.pop_front();
+  skip(scan.state.scan_id);
+  return scan;
+}
+
+CollectedScan ScanCollector::close(OpenScan& scan) {
   CollectedScan collected;
-  collected.state = *scan.state;
+  if (scan.state) {
+    collected.state = *scan.state;
+  } else {
+    collected.state.run_id = scan.run_id;
+    collected.state.scan_id = collected.state.begin_utime = scan.scan_id;
+    collected.state.kind = scan_t::WORKPIECE;
+    collected.state.first_seq = collected.state.last_seq = -1;
+  }
   collected.refusal = scan.refusal;
-  for (auto& [seq, profile] : scan.profiles)
-    if (profile.run_id == scan.state->run_id) collected.profiles.push_back(std::move(profile));
-  if (scan.state->state == scan_t::ENDED) {
+  for (auto& [seq, profile] : scan.profiles) collected.profiles.push_back(std::move(profile));
+  if (scan.has_ended() && scan.refusal.empty()) {
     collected.profiles_lost =
         std::max(0, scan.state->images - static_cast<int>(collected.profiles.size()));
     lost_ += collected.profiles_lost;
@@ -76,16 +122,19 @@ std::optional<CollectedScan> ScanCollector::next() {
   return collected;
 }
 
-std::int64_t ScanCollector::waiting() const {
-  if (open_.empty()) return 0;
-  const OpenScan& scan = open_.begin()->second;
-  return scan.state && scan.state->state == scan_t::ENDED && !is_decided(scan)
-             ? open_.begin()->first
-             : 0;
+bool ScanCollector::awaits_profiles() const {
+  return std::any_of(open_.begin(), open_.end(),
+                     [](const OpenScan& scan) { return scan.has_ended() && !scan.is_decided(); });
 }
 
 void ScanCollector::give_up(const std::string& reason) {
-  if (waiting() != 0) open_.begin()->second.refusal = reason;
+  for (OpenScan& scan : open_)
+    if (!scan.is_decided()) scan.refusal = reason;
+}
+
+void ScanCollector::skip(std::int64_t scan_id) {
+  answered_.push_back(scan_id);
+  if (answered_.size() > kMostAnswered) answered_.pop_front();
 }
 
 }  // namespace arcstart

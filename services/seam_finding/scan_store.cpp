@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <charconv>
 #include <filesystem>
 
 #include "common/event_log.hpp"
@@ -44,37 +45,35 @@ ScanStore::ScanStore(const Instance& instance, int backgrounds_kept, int results
     throw ScanStoreError(folder_ + ": " + error.message() + ": give another folder with --state");
 }
 
-void ScanStore::write(const std::string& name, const CollectedScan* scan,
-                      const std::vector<std::uint8_t>* seam) const {
+void ScanStore::write(const std::string& name, const std::vector<Event>& events) const {
   const std::string path = folder_ + "/" + name, beside = path + ".part";
-  std::error_code error;
   try {
-    fs::remove(beside, error);
     EventLogWriter log(beside);
-    if (scan) {
-      for (const profile_t& profile : scan->profiles)
-        log.write(profile.utime, sensor_ + "_PROFILE", encoded(profile));
-      log.write(scan->state.end_utime, sensor_ + "_SCAN", encoded(scan->state));
-    }
-    if (seam) log.write(0, sensor_ + "_SEAM", *seam);
+    for (const Event& event : events) log.write(event.timestamp, event.channel, event.bytes);
     log.close();
     fs::rename(beside, path);
   } catch (const std::exception& failure) {
-    fs::remove(beside, error);
+    std::error_code ignored;
+    fs::remove(beside, ignored);
     throw ScanStoreError(
-        fmt::format("{}: cannot be kept: {}: free some space", path, failure.what()));
+        fmt::format("{}: cannot be kept: {}: free some space, or give another folder with --state",
+                    path, failure.what()));
   }
 }
 
 void ScanStore::keep_background(const CollectedScan& scan) {
   if (folder_.empty()) return;
-  write(file_name("background", scan.state.scan_id), &scan, nullptr);
+  std::vector<Event> events;
+  for (const profile_t& profile : scan.profiles)
+    events.push_back({profile.utime, sensor_ + "_PROFILE", encoded(profile)});
+  events.push_back({scan.state.end_utime, sensor_ + "_SCAN", encoded(scan.state)});
+  write(file_name("background", scan.state.scan_id), events);
   prune("background", backgrounds_kept_);
 }
 
 void ScanStore::keep_seam(std::int64_t scan_id, const std::vector<std::uint8_t>& bytes) {
   if (folder_.empty()) return;
-  write(file_name("seam", scan_id), nullptr, &bytes);
+  write(file_name("seam", scan_id), {{scan_id, sensor_ + "_SEAM", bytes}});
   prune("seam", results_kept_);
 }
 
@@ -103,16 +102,17 @@ std::vector<CollectedScan> ScanStore::backgrounds(std::vector<std::string>& warn
     try {
       const EventLog log(path);
       CollectedScan scan;
-      bool whole = false;
+      bool whole = false;  // its state is written last
       for (const EventEntry& entry : log.entries()) {
         if (entry.channel == sensor_ + "_PROFILE") {
           if (auto profile = decoded<profile_t>(log.read(entry)))
             scan.profiles.push_back(std::move(*profile));
         } else if (const auto state = decoded<scan_t>(log.read(entry))) {
           scan.state = *state;
-          whole = static_cast<int>(scan.profiles.size()) == state->images;
+          whole = true;
         }
       }
+      scan.profiles_lost = std::max(0, scan.state.images - static_cast<int>(scan.profiles.size()));
       if (!whole || !log.damage().empty())
         throw EventLogError(path + ": damaged, or of another version");
       scans.push_back(std::move(scan));
@@ -136,6 +136,18 @@ std::optional<StoredSeam> ScanStore::newest_seam(std::vector<std::string>& warni
     }
   }
   return {};
+}
+
+std::vector<std::int64_t> ScanStore::answered_scans() const {
+  std::vector<std::int64_t> scans;
+  for (const std::string& path : files("seam")) {
+    const std::string number = fs::path(path).stem().string().substr(std::string("seam-").size());
+    std::int64_t scan_id = 0;
+    const auto [end, error] =
+        std::from_chars(number.data(), number.data() + number.size(), scan_id);
+    if (error == std::errc() && end == number.data() + number.size()) scans.push_back(scan_id);
+  }
+  return scans;
 }
 
 }  // namespace arcstart

@@ -39,11 +39,16 @@ class ScanStore {
   // out.
   std::vector<CollectedScan> backgrounds(std::vector<std::string>& warnings) const;
   std::optional<StoredSeam> newest_seam(std::vector<std::string>& warnings) const;
+  std::vector<std::int64_t> answered_scans() const;  // by the names of the files, oldest first
 
  private:
   std::vector<std::string> files(const std::string& prefix) const;  // oldest first
-  void write(const std::string& name, const CollectedScan* scan,
-             const std::vector<std::uint8_t>* seam) const;
+  struct Event {
+    std::int64_t timestamp;
+    std::string channel;
+    std::vector<std::uint8_t> bytes;
+  };
+  void write(const std::string& name, const std::vector<Event>& events) const;
   void prune(const std::string& prefix, int kept) const;
 
   std::string folder_, sensor_;

@@ -6,6 +6,12 @@
 #include "common/time.hpp"
 
 namespace arcstart {
+namespace {
+
+constexpr std::int64_t kRepetition = 1'000'000;  // us
+constexpr std::size_t kMostPoints = 1'000'000;   // of all backgrounds in memory but the newest
+
+}  // namespace
 
 SeamFindingApp::SeamFindingApp(Bus& bus, const SeamFindingSettings& settings,
                                const Instance& instance)
@@ -15,15 +21,17 @@ SeamFindingApp::SeamFindingApp(Bus& bus, const SeamFindingSettings& settings,
       store_(instance, settings.backgrounds_kept, settings.results_kept) {
   std::vector<std::string> warnings;
   for (const CollectedScan& scan : store_.backgrounds(warnings))
-    backgrounds_.push_back(std::make_unique<StoredBackground>(scan, settings_));
+    if (background_error(scan).empty()) remember(scan);
+  if (!backgrounds_.empty())
+    spdlog::info("background scan {} found again", backgrounds_.back()->scan_id());
+  for (const std::int64_t scan_id : store_.answered_scans()) collector_.skip(scan_id);
   if (auto seam = store_.newest_seam(warnings)) {
     answered_scan_ = seam->scan_id;
     answer_ = std::move(seam->bytes);
-    collector_.skip(answered_scan_);
   }
   for (const std::string& warning : warnings) spdlog::warn("{}", warning);
-  if (!backgrounds_.empty())
-    spdlog::info("background scan {} found again", backgrounds_.back()->scan_id());
+  // By then a running scan has told of itself: its state comes at 5 Hz.
+  next_repeat_ = steady_now() + kRepetition;
   bus.subscribe<scan_t>(instance.sensor_channel("SCAN"), Queue::measurements(),
                         [this](const scan_t& state) { take(state); });
   bus.subscribe<profile_t>(instance.sensor_channel("PROFILE"), Queue::measurements(),
@@ -31,42 +39,55 @@ SeamFindingApp::SeamFindingApp(Bus& bus, const SeamFindingSettings& settings,
 }
 
 void SeamFindingApp::take(const scan_t& state) {
-  if (state.state == scan_t::SCANNING && state.scan_id > answered_scan_) answer_.clear();
+  if (state.state == scan_t::SCANNING && state.scan_id != answered_scan_) answer_.clear();
+  const bool awaited = collector_.awaits_profiles();
   collector_.take(state);
+  // The end of a scan is told again and again, and is no sign of life of the chain behind it.
+  if (state.state == scan_t::SCANNING || (!awaited && collector_.awaits_profiles()))
+    alive_ = steady_now();
   answer_decided();
 }
 
 void SeamFindingApp::take(const profile_t& profile) {
-  heard_ = steady_now();
+  alive_ = steady_now();
   collector_.take(profile);
   answer_decided();
 }
 
 void SeamFindingApp::answer_decided() {
-  while (const auto scan = collector_.next()) {
-    if (scan->state.kind == scan_t::BACKGROUND)
-      take_background(*scan);
-    else
-      send(scan->state.scan_id, answer_workpiece(*scan, background_for(*scan), settings_));
-  }
+  while (const auto scan = collector_.next())
+    send(scan->state.kind == scan_t::BACKGROUND
+             ? take_background(*scan)
+             : answer_workpiece(*scan, background_for(*scan), settings_));
 }
 
-void SeamFindingApp::take_background(const CollectedScan& scan) {
+seam_t SeamFindingApp::take_background(const CollectedScan& scan) {
   const std::string error = background_error(scan);
   seam_t receipt = answer_background(scan, error);
-  if (error.empty()) {
-    backgrounds_.push_back(std::make_unique<StoredBackground>(scan, settings_));
-    if (static_cast<int>(backgrounds_.size()) > settings_.backgrounds_kept)
-      backgrounds_.erase(backgrounds_.begin());
-    try {
-      store_.keep_background(scan);
-      store_error_.clear();
-    } catch (const ScanStoreError& failure) {
-      store_error_ = failure.what();
-      receipt.remark = "kept in memory alone, lost with a restart: " + store_error_;
-    }
+  if (!error.empty()) return receipt;
+  remember(scan);
+  try {
+    store_.keep_background(scan);
+    background_store_error_.clear();
+  } catch (const ScanStoreError& failure) {
+    background_store_error_ = failure.what();
+    spdlog::error("{}", background_store_error_);
+    receipt.remark += "kept in memory alone, lost with a restart: " + background_store_error_;
   }
-  send(scan.state.scan_id, receipt);
+  return receipt;
+}
+
+void SeamFindingApp::remember(const CollectedScan& scan) {
+  backgrounds_.push_back(std::make_unique<StoredBackground>(scan, settings_));
+  std::size_t points = 0, kept = 0;
+  for (auto one = backgrounds_.rbegin(); one != backgrounds_.rend(); ++one) {
+    points += (*one)->points();
+    if (kept > 0 &&
+        (points > kMostPoints || kept >= static_cast<std::size_t>(settings_.backgrounds_kept)))
+      break;
+    ++kept;
+  }
+  backgrounds_.erase(backgrounds_.begin(), backgrounds_.end() - static_cast<std::ptrdiff_t>(kept));
 }
 
 const StoredBackground* SeamFindingApp::background_for(const CollectedScan& scan) const {
@@ -79,40 +100,48 @@ const StoredBackground* SeamFindingApp::background_for(const CollectedScan& scan
   return nullptr;
 }
 
-void SeamFindingApp::send(std::int64_t scan_id, const seam_t& seam) {
+void SeamFindingApp::send(const seam_t& seam) {
   answer_.resize(static_cast<std::size_t>(seam.getEncodedSize()));
   seam.encode(answer_.data(), 0, static_cast<int>(answer_.size()));
-  answered_scan_ = scan_id;
+  answered_scan_ = seam.scan_id;
+  last_error_ = seam.verdict == seam_t::REFUSED
+                    ? fmt::format("scan {} refused: {}", seam.scan_id, seam.reason)
+                    : "";
   try {
-    store_.keep_seam(scan_id, answer_);
+    store_.keep_seam(seam.scan_id, answer_);
+    store_error_.clear();
   } catch (const ScanStoreError& failure) {
     store_error_ = failure.what();  // the answer is right all the same, and goes out
+    spdlog::error("{}", store_error_);
   }
   bus_.publish_bytes(seam_channel_, answer_);
-  next_repeat_ = steady_now() + 1'000'000;
+  next_repeat_ = steady_now() + kRepetition;
 }
 
 void SeamFindingApp::tick(std::int64_t) {
   const std::int64_t now = steady_now();
   if (!answer_.empty() && now >= next_repeat_) {
     bus_.publish_bytes(seam_channel_, answer_);
-    next_repeat_ = now + 1'000'000;
+    next_repeat_ = now + kRepetition;
   }
-  if (collector_.waiting() == 0) heard_ = now;
-  if (now - heard_ < seconds_to_us(settings_.dead_chain_s)) return;
-  collector_.give_up(fmt::format(
-      "the chain is dead: no profile for {} s after the scan's end; see the STATUS of its services",
-      settings_.dead_chain_s));
+  if (!collector_.is_open() || now - alive_ < seconds_to_us(settings_.dead_chain_s)) return;
+  collector_.give_up(
+      collector_.awaits_profiles()
+          ? fmt::format("chain dead: no profile for {} s after the scan's end: see the STATUS of "
+                        "extraction, reconstruction and robot_pose",
+                        settings_.dead_chain_s)
+          : fmt::format("chain dead: no word of the running scan for {} s: see the STATUS of "
+                        "sensor_capture",
+                        settings_.dead_chain_s));
   answer_decided();
 }
 
 Health SeamFindingApp::health() const {
   Health health;
   health.lost = collector_.lost();
-  if (!store_error_.empty()) {
-    health.state = service_status_t::FAULT;
-    health.last_error = store_error_;
-  }
+  const std::string& fault = store_error_.empty() ? background_store_error_ : store_error_;
+  health.last_error = fault.empty() ? last_error_ : fault;
+  if (!fault.empty()) health.state = service_status_t::FAULT;
   return health;
 }
 

@@ -19,6 +19,7 @@ class SeamFindingApp : public App {
   SeamFindingApp(Bus& bus, const SeamFindingSettings& settings, const Instance& instance);
 
   // Repeats the answer at 1 Hz until the next scan starts, and gives up a scan whose chain is dead.
+  // Nothing else here hangs on real time.
   void tick(std::int64_t now_utime) override;
   Health health() const override;
 
@@ -26,9 +27,10 @@ class SeamFindingApp : public App {
   void take(const scan_t& state);
   void take(const profile_t& profile);
   void answer_decided();
-  void take_background(const CollectedScan& scan);
+  seam_t take_background(const CollectedScan& scan);
+  void remember(const CollectedScan& scan);
   const StoredBackground* background_for(const CollectedScan& scan) const;
-  void send(std::int64_t scan_id, const seam_t& seam);
+  void send(const seam_t& seam);
 
   Bus& bus_;
   SeamFindingSettings settings_;
@@ -39,9 +41,9 @@ class SeamFindingApp : public App {
 
   std::vector<std::uint8_t> answer_;  // as sent, empty once the next scan has started
   std::int64_t answered_scan_ = 0;
-  // us, steady; for repetition and dead chains alone. heard_: the last profile while a scan waits.
-  std::int64_t next_repeat_ = 0, heard_ = 0;
-  std::string store_error_;
+  // us, steady. alive_: the last sign of life of a scan that is open.
+  std::int64_t next_repeat_ = 0, alive_ = 0;
+  std::string store_error_, background_store_error_, last_error_;
 };
 
 }  // namespace arcstart
