@@ -3,13 +3,14 @@
 #include <random>
 
 #include "common/sensor_model.hpp"
+#include "common/time.hpp"
 
 namespace arcstart {
 namespace {
 
 constexpr std::int64_t kRunId = 1'699'999'999'000'000;
 
-void copy(const Eigen::Vector3d& from, double to[3]) { Eigen::Map<Eigen::Vector3d>(to) = from; }
+void copy(const Eigen::Vector3d& from, double to[3]) { std::copy(from.begin(), from.end(), to); }
 
 }  // namespace
 

@@ -159,7 +159,7 @@ TEST_CASE("a robot that falls silent and a camera that goes: told, survived, nev
   const std::int64_t scan_id = begin_scan(robot, 0);
   robot.listen_until(
       [&] {
-        told = told || robot.heard().statuses["robot_pose"].state == service_status_t::FAULT;
+        told = told || robot.status("robot_pose").state == service_status_t::FAULT;
         return robot.seam_of(scan_id).has_value();
       },
       20);
@@ -188,7 +188,7 @@ TEST_CASE("a camera lost in a scan ends it; it is found again") {
   const std::int64_t scan_id = begin_scan(cell, 0);
   cell.listen_until(
       [&] {
-        told = told || cell.heard().statuses["sensor_capture"].state == service_status_t::FAULT;
+        told = told || cell.status("sensor_capture").state == service_status_t::FAULT;
         return told && cell.seam_of(scan_id).has_value();
       },
       20);
@@ -229,11 +229,10 @@ TEST_CASE("a camera that is absent, a configuration that is wrong: one clear lin
   RunningCell cell("absent");
   cell.start("sensor_capture");
   CHECK(cell.listen_until(
-      [&] { return cell.heard().statuses["sensor_capture"].state == service_status_t::FAULT; },
-      10));
+      [&] { return cell.status("sensor_capture").state == service_status_t::FAULT; }, 10));
   CHECK(cell.process("sensor_capture").is_running());
-  WARN(cell.heard().statuses["sensor_capture"].last_error);
-  CHECK_THAT(cell.heard().statuses["sensor_capture"].last_error, Catch::Contains("camera"));
+  WARN(cell.status("sensor_capture").last_error);
+  CHECK_THAT(cell.status("sensor_capture").last_error, Catch::Contains("camera"));
 
   for (const char* service : {"sensor-capture", "robot-pose", "extraction", "reconstruction",
                               "seam-finding", "calibration", "cell-simulator"}) {

@@ -172,6 +172,11 @@ std::string RunningCell::log_of(const std::string& service) const {
   return read_file(folder_ + "/" + service + ".log");
 }
 
+service_status_t RunningCell::status(const std::string& service) const {
+  const auto found = heard_.statuses.find(service);
+  return found == heard_.statuses.end() ? service_status_t{} : found->second;
+}
+
 void RunningCell::listen(double seconds) {
   listen_until([] { return false; }, seconds);
 }

@@ -66,6 +66,7 @@ class RunningCell {
 
   Bus& bus() { return *bus_; }
   const Heard& heard() const { return heard_; }
+  service_status_t status(const std::string& service) const;  // newest, empty where none came
   void forget() { heard_ = {}; }
   std::string folder() const { return folder_; }
   std::string cell_file() const { return folder_ + "/cell.yaml"; }
