@@ -75,13 +75,6 @@ std::size_t SensorNoise::start_of_row(std::uint64_t frame_seed, int y) const {
   return hash(frame_seed, static_cast<std::uint64_t>(y)) % starts;
 }
 
-float SensorNoise::speckle(std::uint64_t frame_seed, int x, int y) const {
-  const std::uint64_t place = hash(frame_seed, 1u << 20);
-  const int column = (x + static_cast<int>(place & 0xffff)) & (speckle_size - 1);
-  const int row = (y + static_cast<int>((place >> 16) & 0xffff)) & (speckle_size - 1);
-  return speckle_[std::size_t(row) * speckle_size + column];
-}
-
 void SensorNoise::make_dark(double ambient_grey, double gain) {
   if (dark_ambient_ == ambient_grey && dark_gain_ == gain) return;
   dark_ambient_ = ambient_grey;
@@ -101,8 +94,13 @@ void SensorNoise::read_out(const StripeCanvas& canvas, double ambient_grey, doub
   const auto read_variance = static_cast<float>(read_noise_ * read_noise_ * gain * gain);
   const auto shot_variance = static_cast<float>(gain * grey_per_electron_);  // of one grey level
   const auto ambient = static_cast<float>(ambient_grey);
+  const std::uint64_t speckle_place = hash(frame_seed, 1u << 20);  // no row has this number
+  const int speckle_x = offset_x + static_cast<int>(speckle_place & 0xffff);
+  const int speckle_y = offset_y + static_cast<int>((speckle_place >> 16) & 0xffff);
   for (int row = 0; row < canvas.height(); ++row) {
     const int y = row + offset_y;
+    const float* speckle_row =
+        &speckle_[std::size_t((row + speckle_y) & (speckle_size - 1)) * speckle_size];
     const std::size_t start = start_of_row(frame_seed, y) + static_cast<std::size_t>(offset_x);
     std::uint8_t* out = grey + std::size_t(row) * canvas.width();
     std::memcpy(out, &dark_[start], static_cast<std::size_t>(canvas.width()));
@@ -112,7 +110,8 @@ void SensorNoise::read_out(const StripeCanvas& canvas, double ambient_grey, doub
       const int begin = block * StripeCanvas::block_width;
       const int end = std::min(begin + StripeCanvas::block_width, canvas.width());
       float grain[StripeCanvas::block_width];
-      for (int x = begin; x < end; ++x) grain[x - begin] = speckle(frame_seed, x + offset_x, y);
+      for (int x = begin; x < end; ++x)
+        grain[x - begin] = speckle_row[(x + speckle_x) & (speckle_size - 1)];
       for (int x = begin; x < end; ++x) {
         const float mean = ambient + std::max(0.0f, light[x] + light_speckle[x] * grain[x - begin]);
         out[x] =

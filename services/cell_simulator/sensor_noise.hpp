@@ -19,14 +19,7 @@ class SensorNoise {
   void read_out(const StripeCanvas& canvas, double ambient_grey, double gain,
                 std::uint64_t frame_seed, int offset_x, int offset_y, std::uint8_t* grey);
 
-  // The speckle field's value, mean 0 and standard deviation 1: white noise blurred with sigma 1
-  // px.
-  float speckle(std::uint64_t frame_seed, int x, int y) const;
-
  private:
-  const float* normals_of_row(std::uint64_t frame_seed, int y) const {
-    return &normals_[start_of_row(frame_seed, y)];
-  }
   std::size_t start_of_row(std::uint64_t frame_seed, int y) const;
   void make_dark(double ambient_grey, double gain);
 

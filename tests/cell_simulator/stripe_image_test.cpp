@@ -3,6 +3,7 @@
 #include <cmath>
 #include <numbers>
 
+#include "common/sensor_model.hpp"
 #include "services/cell_simulator/image_renderer.hpp"
 #include "tests/cell_simulator/expected_stripe.hpp"
 
@@ -162,4 +163,30 @@ TEST_CASE("a region is a part of the whole image") {
                                  {0, 0, 0, 5}})
     CHECK_THROWS_AS(renderer.render(scene, T_base_tool, {}, 1, whole.data(), bad),
                     std::invalid_argument);
+}
+
+TEST_CASE(
+    "the pipeline's sensor model, given the true numbers, takes the stripe's pixels back to its "
+    "points") {
+  SensorSettings settings;
+  settings.distortion = {-0.1, 0.05, 0.001, -0.0015, 0.01};
+  const ImageRenderer renderer(settings);
+  const TrueSensor& truth = renderer.sensor();
+  const SensorModel model{
+      truth.width, truth.height, truth.fx,         truth.fy,
+      truth.cx,    truth.cy,     truth.distortion, {truth.laser_normal, truth.laser_offset}};
+  REQUIRE(sensor_model_error(model).empty());
+  const RigidTransform T_base_tool = taught_tool_pose(settings, {}, 12);
+  int inside = 0;
+  for (const StripePoint& point :
+       renderer.true_stripe(make_scene({}, SceneKind::workpiece, 4), T_base_tool, 5)) {
+    const Eigen::Vector2d& pixel = point.pixel;
+    if (point.ghost || pixel.x() < 0 || pixel.x() > 1599 || pixel.y() < 0 || pixel.y() > 1199)
+      continue;
+    ++inside;
+    const auto camera = camera_point(model, pixel.x(), pixel.y());
+    REQUIRE(camera);
+    CHECK((T_base_tool * truth.T_tool_camera * *camera - point.base).norm() < 1e-6);
+  }
+  CHECK(inside > 200);
 }
