@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <cmath>
+#include <utility>
 
 #include "services/robot_pose/wpr.hpp"
 
@@ -47,9 +48,7 @@ std::optional<ReportedPosition> HspoStream::take(std::span<const std::uint8_t> d
 
   switch (place(packet, arrival_utime)) {
     case Place::kElsewhere:
-      ++counts_.late;
-      last_error_ = fmt::format("report {} came twice, late or out of nowhere after {}: dropped",
-                                packet.index, newest_->index);
+      ++out_of_place_;
       return std::nullopt;
     case Place::kSameReport:
       newest_->index = packet.index;
@@ -79,6 +78,7 @@ std::optional<ReportedPosition> HspoStream::take(std::span<const std::uint8_t> d
       } else {
         seq_ = static_cast<std::int64_t>(packet.index) - 1;
       }
+      out_of_place_ = 0;  // they were the first of the new stream
       newest_ = {packet.index, packet.clock, arrival_utime, packet.types};
       clock_ = packet.clock;
       clock_begins_ = true;
@@ -86,6 +86,10 @@ std::optional<ReportedPosition> HspoStream::take(std::span<const std::uint8_t> d
       rate_.restart();
       break;
     case Place::kNext:
+      if (out_of_place_ > 0)
+        last_error_ = fmt::format("{} reports came twice, late or out of nowhere and were dropped",
+                                  out_of_place_);
+      counts_.late += std::exchange(out_of_place_, 0);
       lost_since_position_ += steps(newest_->index, packet.index) - 1;
       clock_ += steps(newest_->clock, packet.clock);
       newest_ = {packet.index, packet.clock, arrival_utime, packet.types};

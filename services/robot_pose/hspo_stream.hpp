@@ -51,6 +51,7 @@ class HspoStream {
   std::optional<Newest> newest_;
   std::optional<Newest> stranger_;  // the last packet that did not follow the newest
   int strangers_ = 0;               // that followed one another
+  int out_of_place_ = 0;            // dropped since the newest
   std::int64_t clock_ = 0;          // of the newest, unwrapped
   std::int64_t seq_ = -1;
   std::int64_t lost_since_position_ = 0;

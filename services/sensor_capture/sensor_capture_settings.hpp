@@ -34,10 +34,12 @@ struct SensorCaptureSettings {
   // Packets taken from the network card directly, as root: gentler on a real network, but nothing
   // comes from this host's own loopback.
   bool packet_socket = false;
-  int buffers = 10;             // frames that Aravis may fill before they are taken
-  int silent_periods = 10;      // without a frame: the camera is lost
-  int frames_to_settle = 1;     // that may still have the old exposure or gain after a change
-  double settle_margin_ms = 2;  // after the camera's answer, before a frame surely has what it says
+  int buffers = 10;          // frames that Aravis may fill before they are taken
+  int silent_periods = 10;   // without a frame: the camera is lost
+  int frames_to_settle = 1;  // that may still have the old exposure or gain after a change
+  // After the camera's answer, before a frame surely has what it says: longer than from an exposure
+  // to its first packet, by which the clocks' mapping is late.
+  double settle_margin_ms = 50;
   // Whether the camera sends a frame's first packet after its exposure (most do) or as it begins:
   // told apart, the clocks' mapping does not change with the exposure.
   bool leader_after_exposure = false;
@@ -75,7 +77,7 @@ struct SensorCaptureSettings {
     visitor("buffers", buffers, between(2, 100));
     visitor("silent_periods", silent_periods, between(2, 1000));
     visitor("frames_to_settle", frames_to_settle, between(0, 10));
-    visitor("settle_margin_ms", settle_margin_ms, between(0, 100));
+    visitor("settle_margin_ms", settle_margin_ms, between(0, 1000));
     visitor("leader_after_exposure", leader_after_exposure);
     visitor("folder", folder);
     visitor("folder_loops", folder_loops);

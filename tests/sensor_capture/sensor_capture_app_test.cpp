@@ -53,6 +53,7 @@ struct Cell {
 
   explicit Cell(SensorCaptureSettings given = {}) : settings(given) {
     settings.exposure_us = kExposure;
+    settings.settle_margin_ms = 2;
     const auto keep = [this](auto& list, const char* name) {
       return [this, &list, name](const auto& message) {
         list.push_back(message);
