@@ -87,7 +87,8 @@ void CellSimulatorApp::carry_out(const cell_command_t& command, std::int64_t now
 
 void CellSimulatorApp::tick(std::int64_t now) {
   if (scanning_ && now - scan_heard_ > kScanSilent) end_scan(now, "nothing more is heard of it");
-  while (!scanning_ && !waiting_.empty()) {
+  // Not while the arm is on its way back either: who sees a command carried out may scan again.
+  while (!scanning_ && cell_.at_rest(now) && !waiting_.empty()) {
     carry_out(waiting_.front(), now);
     waiting_.pop_front();
   }

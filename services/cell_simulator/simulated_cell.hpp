@@ -40,6 +40,9 @@ class SimulatedCell {
   const TrueSensor& sensor() const { return renderer_.sensor(); }
   RigidTransform tool_pose(std::int64_t now) const { return motion_.pose(now); }
   bool moving(std::int64_t now) const { return motion_.moving(now); }
+  bool at_rest(std::int64_t now) const {
+    return motion_.at_rest_from(now) <= now;
+  }  // and about to stay so
   bool laser_on() const { return camera_.laser_on(); }
   std::int64_t frames() const { return camera_.frames(); }
   std::int64_t positions() const { return sender_->sent(); }

@@ -94,8 +94,6 @@ void ReconstructionApp::take_position(const robot_pose_t& message) {
     reconstruction_.take_position(message.utime,
                                   transform_from_arrays(message.position, message.quaternion));
     if (dropped() != dropped_before) position_error_ = "its stamp jumps or goes back";
-  } else {
-    ++invalid_positions_;
   }
   publish_profiles();
 }
@@ -138,8 +136,8 @@ void ReconstructionApp::publish_profiles() {
 Health ReconstructionApp::health() const {
   Health health;
   const TrajectoryQueue& trajectory = reconstruction_.trajectory();
-  health.lost =
-      lost_ + invalid_positions_ + trajectory.dropped_going_back() + trajectory.dropped_jumps();
+  // Invalid positions are no loss of this service: robot_pose says what is wrong with them.
+  health.lost = lost_ + trajectory.dropped_going_back() + trajectory.dropped_jumps();
   health.oldest_age = arrivals_.empty() ? 0 : steady_now() - arrivals_.front();
   if (!calibration_refused_.empty())
     health.last_error = calibration_refused_;

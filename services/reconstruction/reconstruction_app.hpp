@@ -47,7 +47,7 @@ class ReconstructionApp : public App {
   std::deque<std::int64_t>
       arrivals_;  // of the stripes that wait; steady clock, us. For health alone
   Numbering stripes_, positions_;
-  std::int64_t lost_ = 0, invalid_positions_ = 0;
+  std::int64_t lost_ = 0;
   std::string last_empty_;  // why the last profile without a position or calibration was so
 };
 

@@ -294,13 +294,13 @@ TEST_CASE("what is lost, invalid or silent is told") {
   robot_pose_t pose = pose_at(320'000);
   pose.invalid = "controller in error";
   chain.send("ROBOT0_POSE", pose);
-  CHECK(chain.app.health().lost == 6);
+  CHECK(chain.app.health().lost == 5);
   CHECK(chain.app.health().last_error ==
         "ROBOT0_POSE: a position was dropped: controller in error");
   chain.positions(340'000, 340'000);
   CHECK(chain.app.health().last_error == "");
   chain.positions(260'000, 260'000);  // going back
-  CHECK(chain.app.health().lost == 7);
+  CHECK(chain.app.health().lost == 6);
   CHECK(chain.app.health().last_error.find("jumps or goes back") != std::string::npos);
 
   chain.stripe(stripe_at(900'000, 1, 43).message);

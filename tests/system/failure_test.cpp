@@ -18,6 +18,7 @@ bool is_right(const seam_t& seam, const truth_t& truth) {
 
 // Starts a scan and returns when it has run for so long; its id, 0 where it did not start.
 std::int64_t begin_scan(RunningCell& cell, double seconds) {
+  if (!cell.wait_for_arm()) return 0;
   const std::int64_t id = cell.command(scan_command_t::START, scan_t::WORKPIECE);
   if (!cell.listen_until([&] { return cell.heard().scan && cell.heard().scan->command_id == id; },
                          3))
@@ -63,7 +64,6 @@ TEST_CASE(
       CHECK(service == "seam_finding");
     }
     REQUIRE(cell.wait_until_ready());
-    cell.listen(1.5);  // the arm goes back
     const auto next = cell.scan(scan_t::WORKPIECE);
     REQUIRE(next);
     INFO(next->reason);
@@ -170,7 +170,6 @@ TEST_CASE("a robot that falls silent and a camera that goes: told, survived, nev
   if (robot.seam_of(scan_id)->verdict == seam_t::FOUND)
     CHECK_FALSE(seam_error(*robot.seam_of(scan_id), *robot.heard().truth).wrong);
   REQUIRE(robot.wait_until_ready());
-  robot.listen(1.5);
   const auto next = robot.scan(scan_t::WORKPIECE);
   REQUIRE(next);
   CHECK(is_right(*next, *robot.heard().truth));
@@ -199,7 +198,6 @@ TEST_CASE("a camera lost in a scan ends it; it is found again") {
   if (cell.seam_of(scan_id)->verdict == seam_t::FOUND)
     CHECK_FALSE(seam_error(*cell.seam_of(scan_id), *cell.heard().truth).wrong);
   REQUIRE(cell.wait_until_ready(20));
-  cell.listen(2);
   const auto next = cell.scan(scan_t::WORKPIECE);
   REQUIRE(next);
   INFO(next->reason);
@@ -218,7 +216,6 @@ TEST_CASE("position stamps that go back are dropped or refused, never believed")
   REQUIRE(seam);
   WARN(seam->reason << seam->remark);
   if (seam->verdict == seam_t::FOUND) CHECK_FALSE(seam_error(*seam, *cell.heard().truth).wrong);
-  cell.listen(2);
   const auto next = cell.scan(scan_t::WORKPIECE);
   REQUIRE(next);
   INFO(next->reason);

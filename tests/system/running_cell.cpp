@@ -219,21 +219,12 @@ std::optional<seam_t> RunningCell::seam_of(std::int64_t scan_id) const {
   return {};
 }
 
-std::optional<seam_t> RunningCell::scan(std::int8_t kind, double seconds) {
-  const std::int64_t id = command(scan_command_t::START, kind);
-  if (!listen_until([&] { return heard_.scan && heard_.scan->command_id == id; }, 3)) return {};
-  const std::int64_t scan_id = heard_.scan->scan_id;
-  listen_until([&] { return seam_of(scan_id).has_value(); }, seconds);
-  return seam_of(scan_id);
-}
-
-bool RunningCell::change_scene(bool workpiece, std::int64_t seed) {
+bool RunningCell::send_to_cell(std::int8_t scene, std::int64_t seed) {
   cell_command_t command{};
   command.command_id = command.utime = utime_now();
-  command.scene = workpiece ? cell_command_t::WORKPIECE : cell_command_t::BACKGROUND;
+  command.scene = scene;
   command.seed = seed;
   command.quaternion[0] = 1;
-  // A search still under way is let end first: the simulator takes no scene while one runs.
   return listen_until(
       [&] {
         if (heard_.truth && heard_.truth->command_id == command.command_id) return true;
@@ -242,6 +233,21 @@ bool RunningCell::change_scene(bool workpiece, std::int64_t seed) {
         return false;
       },
       10);
+}
+
+bool RunningCell::change_scene(bool workpiece, std::int64_t seed) {
+  return send_to_cell(workpiece ? cell_command_t::WORKPIECE : cell_command_t::BACKGROUND, seed);
+}
+
+bool RunningCell::wait_for_arm() { return send_to_cell(cell_command_t::KEEP, -1); }
+
+std::optional<seam_t> RunningCell::scan(std::int8_t kind, double seconds) {
+  if (!wait_for_arm()) return {};
+  const std::int64_t id = command(scan_command_t::START, kind);
+  if (!listen_until([&] { return heard_.scan && heard_.scan->command_id == id; }, 3)) return {};
+  const std::int64_t scan_id = heard_.scan->scan_id;
+  listen_until([&] { return seam_of(scan_id).has_value(); }, seconds);
+  return seam_of(scan_id);
 }
 
 }  // namespace arcstart

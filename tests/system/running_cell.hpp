@@ -83,9 +83,13 @@ class RunningCell {
   std::int64_t command(std::int8_t action, std::int8_t kind, double longest_duration = 20);
   std::optional<seam_t> scan(std::int8_t kind, double seconds = 25);
   std::optional<seam_t> seam_of(std::int64_t scan_id) const;
+  // Both are carried out when the arm rests where a search begins.
   bool change_scene(bool workpiece, std::int64_t seed);
+  bool wait_for_arm();
 
  private:
+  bool send_to_cell(std::int8_t scene, std::int64_t seed);
+
   std::string folder_;
   std::unique_ptr<Bus> bus_;
   std::map<std::string, std::unique_ptr<Process>> processes_;
