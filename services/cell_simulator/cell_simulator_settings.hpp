@@ -25,7 +25,7 @@ struct CellSimulatorSettings {
   std::string camera_serial = "CELL01";
   double frame_rate_hz = 14;      // until the client sets another
   double image_delay_ms = 27.32;  // begin of the exposure to the first packet's arrival at the host
-  double transport_ms = 0.10;     // of that, what the network takes; measured on loopback
+  double transport_ms = 0.08;     // of that, what the network takes; measured on loopback
   double camera_clock_start_s = 4321;  // what the camera's clock shows when the simulator starts
   double camera_clock_drift_ppm = 12;  // above 0: it runs fast
 

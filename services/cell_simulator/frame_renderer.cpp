@@ -51,7 +51,6 @@ SimulatedFrame FrameRenderer::take(const SimulatedFrame& wanted, std::uint8_t* g
 void FrameRenderer::discard() {
   const std::lock_guard lock(mutex_);
   ready_.reset();
-  begun_slot_ = 0;
   changed_.notify_all();
 }
 
@@ -83,7 +82,8 @@ void FrameRenderer::run() {
       continue;
     }
     // What the client sets until the exposure begins still holds for it.
-    if (next->slot != begun_slot_ && (!ready_ || !same(*ready_, *next))) render(*next);
+    const bool final = ready_ && ready_->slot == next->slot && next->slot == begun_slot_;
+    if (!final && (!ready_ || !same(*ready_, *next))) render(*next);
     if (now >= next->start) begun_slot_ = next->slot;
     wait_until(lock, now >= next->start ? next->slot : next->start);
   }

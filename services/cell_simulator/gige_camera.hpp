@@ -28,7 +28,7 @@ struct GigeCameraSettings {
   int width = 1600, height = 1200;
   double frame_rate = 14;        // until the client sets another; Hz
   double image_delay = 0.02732;  // begin of the exposure to the first packet at the host; s
-  double transport = 0.0001;     // of that, from the camera's sending to the arrival at the host; s
+  double transport = 0.00008;    // of that, from the camera's sending to the arrival at the host; s
   DeviceClock clock;
 };
 
