@@ -6,6 +6,7 @@
 #include <functional>
 #include <iostream>
 #include <limits>
+#include <map>
 #include <memory>
 #include <set>
 #include <utility>
@@ -13,6 +14,7 @@
 #include "common/bus.hpp"
 #include "common/time.hpp"
 #include "services/command_line/message_facts.hpp"
+#include "services/command_line/scan_client.hpp"
 #include "services/command_line/seam_json.hpp"
 #include "services/command_line/traffic.hpp"
 
@@ -25,7 +27,8 @@ constexpr std::size_t kMostSeams = 10000;    // remembered, so that none is told
 struct Options {
   std::string cell;
   bool once = false, json = false, print_urls = false, seams = false;
-  double seconds = 0;  // 0: until Ctrl-C
+  double seconds = 0;      // 0: until Ctrl-C
+  double until_ready = 0;  // s, 0: not asked for
 };
 
 volatile std::sig_atomic_t end_asked = 0;
@@ -70,6 +73,32 @@ int watch_seams(Bus& bus, const std::function<bool()>& is_over) {
   return !told.empty() && all_found ? 0 : 1;
 }
 
+// Waits until every service that a scan needs states that it works, and names those that do not.
+int wait_until_ready(Bus& bus, const std::function<bool()>& is_over) {
+  const Instance instance;
+  std::map<std::string, service_status_t> heard;  // by service
+  for (const auto& service : chain_services())
+    bus.subscribe<service_status_t>(
+        status_channel(instance, service), Queue::newest(),
+        [&heard, name = service.name](const service_status_t& status) { heard[name] = status; });
+  std::string missing;
+  do {
+    bus.handle(std::chrono::milliseconds(50));
+    missing.clear();
+    for (const auto& service : chain_services()) {
+      const auto found = heard.find(service.name);
+      if (found == heard.end())
+        missing += "; " + service.name + " is not heard";
+      else if (found->second.state != service_status_t::RUNNING &&
+               found->second.state != service_status_t::DEGRADED)
+        missing += "; " + service.name + ": " + printable(found->second.last_error);
+    }
+    if (missing.empty()) return 0;
+  } while (!is_over());
+  std::cerr << "monitor: not ready" << missing << "\n";
+  return 1;
+}
+
 int run(const Options& options) {
   const Configuration configuration =
       options.cell.empty() ? Configuration() : Configuration::from_file(options.cell);
@@ -81,6 +110,7 @@ int run(const Options& options) {
   Bus bus(settings);
   if (!bus.buffer_warning().empty()) std::cerr << "monitor: " << bus.buffer_warning() << "\n";
   const auto is_over = until_asked(options.seconds > 0 ? options.seconds : options.once ? 2 : 0);
+  if (options.until_ready > 0) return wait_until_ready(bus, until_asked(options.until_ready));
   if (options.seams) return watch_seams(bus, is_over);
   Traffic traffic;
   // (?s): a channel's name may hold a line feed, and must show all the same.
@@ -125,6 +155,12 @@ void add_monitor_command(CLI::App& parent, int& exit_code) {
                  "all are found or "
                  "backgrounds stored")
       ->excludes("--once", "--json");
+  command
+      ->add_option("--until-ready", options->until_ready,
+                   "Instead of the table wait, at most so many seconds, until every service that a "
+                   "scan needs works; exit 1 names those that do not")
+      ->check(CLI::Range(0.1, 1e7))
+      ->excludes("--once", "--json", "--seams");
   command
       ->add_flag("--print-urls", options->print_urls,
                  "Only print the bus's LCM URLs, one a port, images last, and end")

@@ -87,7 +87,7 @@ class Pipeline {
     bool changed = false;  // sent again with other bytes
   };
   const std::vector<Answer>& answers() const { return answers_; }
-  const Bus& bus() const { return *bus_; }
+  Bus& bus() { return *bus_; }
 
  private:
   // Repetitions are byte for byte the same.
@@ -179,6 +179,7 @@ ReplayResult replay_recordings(const std::vector<std::string>& paths,
                           : first_stage(recording);
   const Settings settings = read_settings(recording, first, options.cell, result.warnings);
   Pipeline pipeline(settings, Instance{recording.sensor(), recording.robot(), ""});
+  options.on_bus(pipeline.bus(), recording.sensor());
 
   const auto before = background ? background->recording.sources([&](const RecordedScan& scan) {
     return background->scans.contains(scan.scan_id);

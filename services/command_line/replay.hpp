@@ -8,6 +8,7 @@
 #include <string>
 #include <vector>
 
+#include "common/bus.hpp"
 #include "services/command_line/recording.hpp"
 
 namespace arcstart {
@@ -31,6 +32,8 @@ struct ReplayOptions {
   std::string sensor;      // empty: the only one in the recordings
   std::string robot;       // empty: the calibration's
   std::function<void(double share)> on_progress = [](double) {};
+  // Called with the pipeline's bus before anything is on it, to subscribe to what goes over it.
+  std::function<void(Bus& bus, const std::string& sensor)> on_bus = [](Bus&, const std::string&) {};
 };
 
 struct ReplayResult {

@@ -6,6 +6,7 @@
 #include <memory>
 
 #include "services/command_line/replay.hpp"
+#include "services/command_line/scan_pictures.hpp"
 #include "services/command_line/seam_json.hpp"
 #include "services/command_line/terminal.hpp"
 
@@ -15,6 +16,7 @@ namespace {
 struct Options {
   std::vector<std::string> paths;
   ReplayOptions replay;
+  std::string pictures;
   bool json = false, print_channels = false, print_settings = false;
 };
 
@@ -72,9 +74,19 @@ int run(Options& options) try {
   options.replay.on_progress = [&](double share) {
     progress.show(fmt::format("replaying {:.0f} %", 100 * share));
   };
+  std::optional<ScanPictures> pictures;
+  if (!options.pictures.empty()) {
+    const auto settings =
+        Configuration::from_text(replay_settings(options.paths, options.replay), "recording");
+    pictures.emplace(options.pictures, settings.read<SeamFindingSettings>("seam_finding"));
+    options.replay.on_bus = [&](Bus& bus, const std::string& sensor) {
+      pictures->listen(bus, sensor);
+    };
+  }
   const ReplayResult result = replay_recordings(options.paths, options.replay);
   progress.clear();
   print(result, options.json);
+  if (pictures) std::cerr << options.pictures << ": " << pictures->write() << "\n";
   return result.is_good() ? 0 : 1;
 } catch (const EventLogError& error) {
   std::cerr << "replay: " << error.what() << "\n";
@@ -98,6 +110,11 @@ void add_replay_command(CLI::App& parent, int& exit_code) {
       "--cell", options->replay.cell,
       "The cell's file, cell.yaml, whose settings are to be used; without it those that the "
       "recording's STATUS states");
+  command
+      ->add_option("--pictures", options->pictures,
+                   "Folder for what a person can look at of the last workpiece scan: cloud.pcd, "
+                   "cloud.ply, cloud.png and stripe.png")
+      ->check(CLI::ExistingDirectory);
   command->add_option("--background", options->replay.background,
                       "Recording of a background scan, to be used in place of those in LOG");
   command->add_option("--sensor", options->replay.sensor,

@@ -2,7 +2,6 @@
 
 #include <fmt/format.h>
 
-#include <array>
 #include <random>
 #include <vector>
 
@@ -17,11 +16,6 @@ constexpr std::int64_t kSilence = 3'000'000;  // us: STATUS comes at 1 Hz
 constexpr std::int64_t kLateStart =
     1'000'000;  // us: LASER0_SCAN comes at 5 Hz and at once on a change
 
-const std::array kChain = {
-    ServiceDescription{"sensor_capture", "", false}, ServiceDescription{"robot_pose", "", true},
-    ServiceDescription{"calibration", "", false},    ServiceDescription{"extraction", "", false},
-    ServiceDescription{"reconstruction", "", false}, ServiceDescription{"seam_finding", "", false}};
-
 // Never 0, and no two alike, whichever host and process they come from.
 std::int64_t unique_command_id() {
   std::random_device device;
@@ -30,6 +24,17 @@ std::int64_t unique_command_id() {
 }
 
 }  // namespace
+
+const std::vector<ServiceDescription>& chain_services() {
+  static const std::vector<ServiceDescription> services = {
+      ServiceDescription{"sensor_capture", "", false},
+      ServiceDescription{"robot_pose", "", true},
+      ServiceDescription{"calibration", "", false},
+      ServiceDescription{"extraction", "", false},
+      ServiceDescription{"reconstruction", "", false},
+      ServiceDescription{"seam_finding", "", false}};
+  return services;
+}
 
 ScanClient::ScanClient(Bus& bus, const Instance& instance, const ScanRequest& request)
     : bus_(bus),
@@ -41,7 +46,7 @@ ScanClient::ScanClient(Bus& bus, const Instance& instance, const ScanRequest& re
                         [this](const scan_t& state) { take_scan(state); });
   bus.subscribe<seam_t>(instance.sensor_channel("SEAM"), Queue::newest(),
                         [this](const seam_t& seam) { take_seam(seam); });
-  for (const auto& service : kChain)
+  for (const auto& service : chain_services())
     bus.subscribe<service_status_t>(status_channel(instance, service), Queue::newest(),
                                     [this, name = service.name](const service_status_t& status) {
                                       services_[name] = {now_, status};
@@ -155,7 +160,7 @@ std::string ScanClient::progress() const {
 
 std::string ScanClient::missing_services() const {
   std::vector<std::string> missing, faults;
-  for (const auto& service : kChain) {
+  for (const auto& service : chain_services()) {
     const auto heard = services_.find(service.name);
     if (heard == services_.end() || now_ - heard->second.steady > kSilence) {
       missing.push_back(service.name);
@@ -167,7 +172,7 @@ std::string ScanClient::missing_services() const {
     if (is_ill || (status.state == service_status_t::DEGRADED && !status.last_error.empty()))
       faults.push_back(service.name + " says: " + printable(status.last_error));
   }
-  if (missing.size() == kChain.size())
+  if (missing.size() == chain_services().size())
     return "no service of the chain is heard: are they running, for this sensor and robot, on this "
            "group and port?";
   std::string line = missing.empty()

@@ -6,11 +6,15 @@
 #include <map>
 #include <optional>
 #include <string>
+#include <vector>
 
 #include "common/bus.hpp"
 #include "common/service.hpp"
 
 namespace arcstart {
+
+// The services that every scan needs.
+const std::vector<ServiceDescription>& chain_services();
 
 struct ScanRequest {
   std::int8_t kind = scan_t::WORKPIECE;  // or BACKGROUND
