@@ -6,13 +6,8 @@
 namespace arcstart {
 namespace {
 
-constexpr double kLeastNear = 2;    // mm
 constexpr double kLoneGap = 2.5;    // stripe spacings
 constexpr double kSamePlace = 0.3;  // of the spacing: the tool stood still
-
-bool both(const Station& station, const std::array<double, 2>& near) {
-  return station.nearest[0] <= near[0] && station.nearest[1] <= near[1];
-}
 
 // An uninterrupted part of the seam.
 struct Stretch {
@@ -21,14 +16,14 @@ struct Stretch {
   double covered = 0;  // mm
 };
 
-std::vector<Stretch> stretches(const std::vector<Station>& stations,
-                               const std::array<double, 2>& near, double spacing) {
+std::vector<Stretch> stretches(const Stations& all, double spacing) {
+  const std::vector<Station>& stations = all.list;
   std::vector<Stretch> found;
   bool open = false;
   double counted_at = 0;
   for (int i = 0; i < static_cast<int>(stations.size()); ++i) {
     if (!stations[i].known) continue;
-    if (!both(stations[i], near)) {
+    if (!all.both(stations[i])) {
       open = false;
       continue;
     }
@@ -75,19 +70,6 @@ Stretch longest(const std::vector<Stretch>& found, const std::vector<Station>& s
   return whole;
 }
 
-// How near a plate's points usually come to the line, so that a stripe which only passes by is not
-// taken for one that crosses the seam.
-double usual_distance(const std::vector<Station>& stations, const Stretch& stretch, int plate,
-                      double contact) {
-  std::vector<double> nearest;
-  for (int i = stretch.first; i <= stretch.last; ++i)
-    if (stations[i].nearest[plate] <= contact) nearest.push_back(stations[i].nearest[plate]);
-  if (nearest.empty()) return contact;
-  const auto high = nearest.begin() + static_cast<std::ptrdiff_t>(9 * (nearest.size() - 1) / 10);
-  std::nth_element(nearest.begin(), high, nearest.end());
-  return std::clamp(2 * *high, std::min(kLeastNear, contact), contact);
-}
-
 double end_beyond(const std::vector<Station>& stations, int from, int step, int& missing,
                   bool& outside) {
   missing = 0;
@@ -104,20 +86,15 @@ double end_beyond(const std::vector<Station>& stations, int from, int step, int&
 Course find_course(const ScanCloud& cloud, const std::array<Plate, 2>& plates, const Line& line,
                    const CourseSearch& search) {
   Course course;
-  const auto stations = stations_along(cloud, plates, line, search);
-  std::array<double, 2> near = {plates[0].contact, plates[1].contact};
-  auto found = stretches(stations, near, search.spacing);
+  const Stations stations = stations_along(cloud, plates, line, search);
+  const auto found = stretches(stations, search.spacing);
   if (found.empty()) return course;
-  const Stretch rough = longest(found, stations, search);
-  for (int j = 0; j < 2; ++j) near[j] = usual_distance(stations, rough, j, near[j]);
-  found = stretches(stations, near, search.spacing);
-  if (found.empty()) return course;
-  const Stretch whole = longest(found, stations, search);
+  const Stretch whole = longest(found, stations.list, search);
   course.stripes = whole.stripes;
   course.covered = whole.covered;
   course.begin =
-      end_beyond(stations, whole.first, -1, course.missing_before, course.begins_outside);
-  course.end = end_beyond(stations, whole.last, +1, course.missing_after, course.ends_outside);
+      end_beyond(stations.list, whole.first, -1, course.missing_before, course.begins_outside);
+  course.end = end_beyond(stations.list, whole.last, +1, course.missing_after, course.ends_outside);
   return course;
 }
 

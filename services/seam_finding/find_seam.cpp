@@ -14,6 +14,7 @@ namespace {
 
 constexpr double kDegree = M_PI / 180;
 constexpr double kLeastTolerance = 0.6;  // mm
+constexpr double kLeastNoise = 0.01;     // mm
 constexpr double kMostTolerance = 6;     // mm
 constexpr double kNoiseTolerance = 4;    // tolerance over noise
 constexpr double kPlaneHeights = 5;      // of PlaneBackground, in tolerances
@@ -22,13 +23,14 @@ constexpr int kMissingInARow = 3;    // stripes before the start
 constexpr double kContinues = 0.25;  // share of a face's points that lie in its plane as background
 
 struct Scales {
-  double tolerance, connection, contact, spacing;
+  double tolerance, connection, contact, spacing, noise;
 };
 
 // What counts as near, from what the cloud itself shows.
 Scales scales_of(const ScanCloud& cloud, const Sampling& sampling, double tolerance_mm) {
   Scales scales;
   scales.spacing = sampling.spacing;
+  scales.noise = std::max(kLeastNoise, sampling.noise);
   scales.tolerance = tolerance_mm > 0 ? tolerance_mm
                                       : std::clamp(kNoiseTolerance * sampling.noise,
                                                    kLeastTolerance, kMostTolerance);
@@ -186,7 +188,7 @@ SeamResult find_seam(const ScanCloud& scan, const Background& background,
     if (candidate.flaw.empty())
       refit_joint(scan, candidate,
                   {settings.refit_distance_mm, settings.outlier_neighbours,
-                   settings.outlier_deviations, scales.tolerance},
+                   settings.outlier_deviations, scales.noise, scales.tolerance},
                   joint.course);
     seams.push_back(std::move(candidate));
     if (static_cast<int>(seams.size()) == kAlternatives) break;

@@ -185,9 +185,4 @@ std::vector<Face> find_faces(const ScanCloud& cloud, std::vector<int> indices,
   return faces;
 }
 
-Plane refine_plane(const std::vector<Eigen::Vector3d>& points, Plane guess, double tolerance) {
-  for (int i = 0; i < kRefits && points.size() >= 3; ++i) guess = refit(points, guess, tolerance);
-  return guess;
-}
-
 }  // namespace arcstart

@@ -38,9 +38,4 @@ struct Face {
 std::vector<Face> find_faces(const ScanCloud& cloud, std::vector<int> indices,
                              const PlaneSearch& search, std::uint64_t seed);
 
-// Least-squares plane of those of the points that lie within the tolerance, refitted a few times
-// from a first guess, with the guess's sense of the normal. Keeps the guess where fewer than 3
-// points or only a line would be left.
-Plane refine_plane(const std::vector<Eigen::Vector3d>& points, Plane guess, double tolerance);
-
 }  // namespace arcstart

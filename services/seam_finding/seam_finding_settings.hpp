@@ -25,7 +25,7 @@ struct SeamFindingSettings {
       0;  // a point on a plane lies no farther from it; 0: from the cloud's own noise
   double angle_deg = 90;            // theta of Eq. 6: between the plates
   double angle_tolerance_deg = 20;  // epsilon of Eq. 6
-  double refit_distance_mm = 30;    // plates are fitted again to what lies so near the seam
+  double refit_distance_mm = 60;    // plates are fitted again to what lies so near the seam
   int outlier_neighbours =
       10;  // statistical outlier removal before that fit; 0: none. Never before the ends
   double outlier_deviations =

@@ -10,14 +10,16 @@ namespace {
 
 constexpr double kSlantReach = 15;  // points so near the line say how the stripes cross it; mm
 constexpr double kSteepest = 3;     // slant, mm along the line for each mm away from it
-constexpr int kEmptyInARow = 3;     // so many stripes in a row that show nothing: nothing is there
+constexpr double kStepMargin = 1.15;
+constexpr int kEmptyInARow = 3;  // so many stripes in a row that show nothing: nothing is there
 constexpr double kInfinity = std::numeric_limits<double>::infinity();
 
 // What one stripe shows of one plate beside the line.
 struct Sight {
   int count = 0;
   double r = 0, t = 0, rr = 0, rt = 0;  // sums of distance from and place along the line
-  double nearest = kInfinity;           // mm
+  std::vector<double> away;             // the distances; mm
+  double nearest = kInfinity;           // of them
 };
 
 // In a plate, away from the seam: toward the side that the other plate faces.
@@ -36,6 +38,7 @@ std::vector<Sight> sights_of(const ScanCloud& cloud, const Plate& plate, const P
     const double t = line.along(cloud.points[i]);
     Sight& s = sights[cloud.origins[i].stripe];
     ++s.count;
+    s.away.push_back(r);
     s.r += r, s.t += t, s.rr += r * r, s.rt += r * t;
     s.nearest = std::min(s.nearest, r);
   }
@@ -52,6 +55,20 @@ double slant_of(const std::vector<Sight>& sights) {
     rt += s.rt - s.r * s.t / s.count;
   }
   return rr > 1 ? std::clamp(rt / rr, -kSteepest, kSteepest) : 0;
+}
+
+// How far from the line a plate's nearest point can be where the stripe runs on to the line: points
+// nearer than the tolerance do not count, and the others are a step apart.
+double near_limit(std::vector<Sight>& sights, double tolerance, double contact) {
+  std::vector<double> steps;
+  for (Sight& s : sights) {
+    std::sort(s.away.begin(), s.away.end());
+    for (std::size_t i = 1; i < s.away.size(); ++i) steps.push_back(s.away[i] - s.away[i - 1]);
+  }
+  if (steps.empty()) return contact;
+  const auto high = steps.begin() + static_cast<std::ptrdiff_t>(9 * (steps.size() - 1) / 10);
+  std::nth_element(steps.begin(), high, steps.end());
+  return std::min(contact, tolerance + kStepMargin * *high);
 }
 
 using Places = std::vector<std::optional<double>>;
@@ -112,13 +129,17 @@ void mark_unknown(const ScanCloud& cloud, std::vector<Station>& stations) {
   }
 }
 
-std::vector<Station> stripe_stations(const ScanCloud& cloud, const std::array<Plate, 2>& plates,
-                                     const Line& line, const CourseSearch& search) {
-  const std::array<std::vector<Sight>, 2> sights = {
+Stations stripe_stations(const ScanCloud& cloud, const std::array<Plate, 2>& plates,
+                         const Line& line, const CourseSearch& search) {
+  std::array<std::vector<Sight>, 2> sights = {
       sights_of(cloud, plates[0], plates[1], line, search.tolerance),
       sights_of(cloud, plates[1], plates[0], line, search.tolerance)};
   const Places places = carried_crossings(cloud, seen_crossings(sights, plates), line);
-  std::vector<Station> stations(cloud.stripes.size());
+  Stations found;
+  for (int j = 0; j < 2; ++j)
+    found.near[j] = near_limit(sights[j], search.tolerance, plates[j].contact);
+  std::vector<Station>& stations = found.list;
+  stations.resize(cloud.stripes.size());
   for (int k = 0; k < static_cast<int>(stations.size()); ++k)
     stations[k] = {guessed_crossing(places, k, search.spacing),
                    {sights[0][k].nearest, sights[1][k].nearest},
@@ -126,12 +147,12 @@ std::vector<Station> stripe_stations(const ScanCloud& cloud, const std::array<Pl
   mark_unknown(cloud, stations);
   std::stable_sort(stations.begin(), stations.end(),
                    [](const Station& a, const Station& b) { return a.along < b.along; });
-  return stations;
+  return found;
 }
 
 // A plate goes on where its points near the line leave no wide gap.
-std::vector<Station> piece_stations(const ScanCloud& cloud, const std::array<Plate, 2>& plates,
-                                    const Line& line, const CourseSearch& search) {
+Stations piece_stations(const ScanCloud& cloud, const std::array<Plate, 2>& plates,
+                        const Line& line, const CourseSearch& search) {
   std::array<std::vector<double>, 2> places;
   double low = kInfinity, high = -kInfinity;
   for (int j = 0; j < 2; ++j) {
@@ -144,7 +165,8 @@ std::vector<Station> piece_stations(const ScanCloud& cloud, const std::array<Pla
     std::sort(places[j].begin(), places[j].end());
     low = std::min(low, places[j].front()), high = std::max(high, places[j].back());
   }
-  std::vector<Station> stations;
+  Stations found;
+  found.near = {plates[0].contact, plates[1].contact};
   for (double t = low - search.spacing; t <= high + search.spacing; t += search.spacing) {
     Station station{t, {kInfinity, kInfinity}, true};
     for (int j = 0; j < 2; ++j) {
@@ -153,15 +175,15 @@ std::vector<Station> piece_stations(const ScanCloud& cloud, const std::array<Pla
           *after - *(after - 1) <= plates[j].contact)
         station.nearest[j] = 0;
     }
-    stations.push_back(station);
+    found.list.push_back(station);
   }
-  return stations;
+  return found;
 }
 
 }  // namespace
 
-std::vector<Station> stations_along(const ScanCloud& cloud, const std::array<Plate, 2>& plates,
-                                    const Line& line, const CourseSearch& search) {
+Stations stations_along(const ScanCloud& cloud, const std::array<Plate, 2>& plates,
+                        const Line& line, const CourseSearch& search) {
   return cloud.organised() ? stripe_stations(cloud, plates, line, search)
                            : piece_stations(cloud, plates, line, search);
 }

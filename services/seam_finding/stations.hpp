@@ -30,12 +30,23 @@ struct Station {
   bool known = true;  // false: the stripe is missing, or spoilt
 };
 
+struct Stations {
+  std::vector<Station> list;  // in order of their places
+  // A plate is at a station where its nearest point is no farther from the line than a stripe's
+  // points are from each other; else the stripe leaves the plate before it crosses the seam. mm
+  std::array<double, 2> near{};
+
+  bool both(const Station& station) const {
+    return station.nearest[0] <= near[0] && station.nearest[1] <= near[1];
+  }
+};
+
 // A station for every stripe of the scan, also those that cross the line where no plate is, in the
 // order of their places. A stripe's crossing is extrapolated from the points beside the line, with
 // the slant at which stripes cross the plates; where it shows no plate, it is carried there by the
 // tool's way from the nearest stripe that does. A cloud without stripes has one for every `spacing`
 // of the line.
-std::vector<Station> stations_along(const ScanCloud& cloud, const std::array<Plate, 2>& plates,
-                                    const Line& line, const CourseSearch& search);
+Stations stations_along(const ScanCloud& cloud, const std::array<Plate, 2>& plates,
+                        const Line& line, const CourseSearch& search);
 
 }  // namespace arcstart
