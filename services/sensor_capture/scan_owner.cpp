@@ -68,7 +68,6 @@ void ScanOwner::position(std::int64_t utime, const Eigen::Vector3d& position,
 }
 
 void ScanOwner::camera_lost(std::int64_t now) {
-  newest_.reset();
   if (!scanning()) return;
   if (!ending_) end(now, "camera lost");
   if (scanning()) finish();

@@ -111,15 +111,14 @@ void SensorCaptureApp::take(const CameraFound& found, std::int64_t now) {
   timeline_.begin(found.settings);
   owner_.set_shortest_period(found.shortest_period_us);
   owner_.set_longest_delay(1'000'000 + 3 * found.shortest_period_us);
-  // Something asked of the camera before it was lost may still be on its way to it.
-  ask_for(wanted_settings(), now);
+  asked_.reset();  // what was asked before it was lost may still be on its way: ask again
+  follow_scan(now);
 }
 
 void SensorCaptureApp::take(const CameraLost& lost, std::int64_t now) {
   found_ = false;
   starting_ = false;
   camera_trouble_ = lost.reason;
-  asked_.reset();
   if (command_) end_command(lost.reason);
   owner_.camera_lost(now);
   follow_scan(now);

@@ -27,7 +27,9 @@ void SettingsTimeline::refused(std::int64_t ticket) {
 }
 
 SettingsTimeline::InForce SettingsTimeline::take_frame(std::int64_t begin_utime) {
-  while (!changes_.empty() && has_settled(changes_.front(), begin_utime)) {
+  for (Change& change : changes_)
+    if (was_acknowledged(change, begin_utime)) ++change.frames_after;
+  while (!changes_.empty() && has_settled(changes_.front())) {
     settings_ = changes_.front().settings;
     ticket_ = changes_.front().ticket;
     changes_.pop_front();
@@ -37,9 +39,7 @@ SettingsTimeline::InForce SettingsTimeline::take_frame(std::int64_t begin_utime)
   for (const Change& change : changes_) {
     if (change.requested >= end_utime) break;
     in_force.certain = false;
-    const bool laser_settled =
-        change.acknowledged > 0 && begin_utime >= change.acknowledged + margin_us_;
-    in_force.lit = change.settings.laser_on && (in_force.lit || laser_settled);
+    in_force.lit = change.settings.laser_on && (in_force.lit || change.frames_after > 0);
   }
   return in_force;
 }
@@ -48,11 +48,14 @@ const CameraSettings& SettingsTimeline::wanted() const {
   return changes_.empty() ? settings_ : changes_.back().settings;
 }
 
-bool SettingsTimeline::has_settled(Change& change, std::int64_t begin_utime) const {
-  if (change.acknowledged == 0 || begin_utime < change.acknowledged + margin_us_) return false;
+bool SettingsTimeline::was_acknowledged(const Change& change, std::int64_t begin_utime) const {
+  return change.acknowledged > 0 && begin_utime >= change.acknowledged + margin_us_;
+}
+
+bool SettingsTimeline::has_settled(const Change& change) const {
   const bool latched = change.settings.exposure_us != settings_.exposure_us ||
                        change.settings.gain_db != settings_.gain_db;
-  return !latched || change.frames_after++ >= frames_to_settle_;
+  return change.frames_after > (latched ? frames_to_settle_ : 0);
 }
 
 }  // namespace arcstart

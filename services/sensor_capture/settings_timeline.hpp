@@ -44,9 +44,10 @@ class SettingsTimeline {
     CameraSettings settings;
     std::int64_t requested;
     std::int64_t acknowledged = 0;  // 0: not yet
-    int frames_after = 0;           // begun since then
+    int frames_after = 0;           // begun since then, the margin included
   };
-  bool has_settled(Change& change, std::int64_t begin_utime) const;
+  bool was_acknowledged(const Change& change, std::int64_t begin_utime) const;
+  bool has_settled(const Change& change) const;
 
   std::int64_t margin_us_;
   int frames_to_settle_;
