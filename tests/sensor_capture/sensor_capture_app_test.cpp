@@ -270,6 +270,10 @@ TEST_CASE("sensor_capture: a camera lost in a scan ends it; found again it is da
   cell.expose();
   CHECK(cell.images.size() == 1);
   CHECK(cell.scans.back().state == scan_t::ENDED);
+  // Whatever it may have been asked before: a camera that is found is told to be dark.
+  cell.script.events.push_back(CameraLost{"gone again"});
+  cell.find_camera();
+  CHECK(cell.script.requests.size() == requests + 2);
 }
 
 TEST_CASE("sensor_capture: incomplete frames go out without bytes, with the reason") {
