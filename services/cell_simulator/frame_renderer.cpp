@@ -8,6 +8,7 @@
 namespace arcstart {
 namespace {
 
+constexpr std::int64_t kShortest = 500;      // rest between two looks; us
 constexpr std::int64_t kLookAgain = 10'000;  // while the camera stands; us
 constexpr std::int64_t kLateCamera =
     30'000;  // a frame not asked for so long after its slot is given up; us
@@ -62,7 +63,7 @@ void FrameRenderer::render(const SimulatedFrame& frame) {
 }
 
 void FrameRenderer::wait_until(std::unique_lock<std::mutex>& lock, std::int64_t utime) {
-  changed_.wait_for(lock, std::chrono::microseconds(utime - utime_now()));
+  changed_.wait_for(lock, std::chrono::microseconds(std::max(utime - utime_now(), kShortest)));
 }
 
 void FrameRenderer::run() {

@@ -77,6 +77,10 @@ RigidTransform tool(const truth_t& truth) {
   return transform_from_arrays(truth.tool_position, truth.tool_quaternion);
 }
 
+bool stands_at(const truth_t& truth, const RigidTransform& T_base_tool) {
+  return !truth.moving && tool(truth).isApprox(T_base_tool, 1e-9);
+}
+
 }  // namespace
 
 TEST_CASE("the truth tells scene, seam and arm; a command changes the scene once") {
@@ -125,22 +129,17 @@ TEST_CASE("a scan starts the search, its end brings the arm back, and commands w
   cell.command(21, cell_command_t::WORKPIECE, -1);
   cell.run_until([&] {
     cell.scan(scan_t::SCANNING, scan_id);  // it is stated at 5 Hz
-    return cell.truth().moving;
+    return stands_at(cell.truth(), end);
   });
-  CHECK(cell.truth().utime >= scan_id + 500'000);
-  cell.run_until([&] {
-    cell.scan(scan_t::SCANNING, scan_id);
-    return !cell.truth().moving;
-  });
-  CHECK(tool(cell.truth()).isApprox(end, 1e-9));
+  for (const truth_t& truth : cell.truths)
+    if (truth.utime < scan_id + 500'000) CHECK(stands_at(truth, begin));
   CHECK(cell.truth().command_id == 0);
+  CHECK(cell.truth().scene == cell_command_t::BACKGROUND);
 
   cell.scan(scan_t::ENDED, scan_id);
   cell.run_until([&] { return cell.truth().command_id == 21; });
   CHECK(cell.truth().scene == cell_command_t::WORKPIECE);
-  cell.run_until([&] { return cell.truth().moving; });
-  cell.run_until([&] { return !cell.truth().moving; });
-  CHECK(tool(cell.truth()).isApprox(begin, 1e-9));
+  cell.run_until([&] { return stands_at(cell.truth(), begin); });
 }
 
 TEST_CASE("a scan of which nothing more is heard is over") {
@@ -163,9 +162,7 @@ TEST_CASE("the arm goes to a pose it reaches, and a pose out of reach is refused
   pose.translation() += Eigen::Vector3d(-60, 40, 30);
   transform_to_arrays(pose, command.position, command.quaternion);
   cell.bus->publish("CELL_COMMAND", command);
-  cell.run_until([&] { return cell.truth().moving; });
-  cell.run_until([&] { return !cell.truth().moving; });
-  CHECK(tool(cell.truth()).isApprox(pose, 1e-9));
+  cell.run_until([&] { return stands_at(cell.truth(), pose); });
   CHECK(cell.app.health().last_error.empty());
 
   command.command_id = 42;
@@ -209,18 +206,22 @@ TEST_CASE("the same search of the same scene gives the same frames") {
   REQUIRE(client.get());
   client.light_the_laser();
   client.start();
+  const auto taught = [&](double along) {
+    return taught_tool_pose(settings.sensor, settings.scene, along);
+  };
+  const RigidTransform begin = taught(settings.scene.search_begin_mm),
+                       end = taught(settings.scene.search_end_mm);
   // The frames of a search, by the arm's moving; those at its edges may fall on either side.
   const auto search = [&](std::int64_t scan_id) {
     std::vector<std::vector<std::uint8_t>> frames;
-    for (bool begun = false; !begun || cell.truth().moving;) {
+    while (!stands_at(cell.truth(), end)) {
       cell.scan(scan_t::SCANNING, scan_id);
-      begun = begun || cell.truth().moving;
+      const bool begun = cell.truth().moving;
       const ReceivedFrame frame = client.next();
       if (begun) frames.push_back(frame.grey);
     }
     cell.scan(scan_t::ENDED, scan_id);
-    cell.run_until([&] { return cell.truth().moving; });
-    cell.run_until([&] { return !cell.truth().moving; });
+    cell.run_until([&] { return stands_at(cell.truth(), begin); });
     return frames;
   };
   const auto first = search(utime_now()), second = search(utime_now());
