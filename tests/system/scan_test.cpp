@@ -5,6 +5,7 @@
 
 #include "services/command_line/replay.hpp"
 #include "services/command_line/seam_error.hpp"
+#include "services/command_line/seam_json.hpp"
 #include "tests/system/running_cell.hpp"
 
 using namespace arcstart;
@@ -86,4 +87,15 @@ TEST_CASE("five scans in a row: the right seam, in time, and nothing lost") {
   const auto once = answers(replay_recordings({recording}));
   CHECK(once == answers(replay_recordings({recording})));
   CHECK(once == cell.heard().seam_bytes);
+}
+
+TEST_CASE("lcm-logplayer into live services gives what replay in process gives") {
+  const std::string source = ARCSTART_SOURCE, recording = source + "/logs/tool_50.lcm";
+  const Output played = run({source + "/scripts/replay", recording}, 90);
+  INFO(played.err);
+  CHECK(played.code == 0);
+  std::string expected;
+  for (const ReplayedSeam& seam : replay_recordings({recording}).seams)
+    expected += seam_to_json(seam.seam).dump() + "\n";
+  CHECK(played.out == expected);
 }
