@@ -18,9 +18,25 @@ constexpr double kLeastNoise = 0.01;     // mm
 constexpr double kMostTolerance = 6;     // mm
 constexpr double kNoiseTolerance = 4;    // tolerance over noise
 constexpr double kPlaneHeights = 5;      // of PlaneBackground, in tolerances
+constexpr double kPitches = 1.3;         // contact over the points' distance along a stripe
+constexpr double kShortestSeam = 10;     // mm: less of it seen on both plates is no seam
 constexpr int kAlternatives = 6;
 constexpr int kMissingInARow = 3;    // stripes before the start
 constexpr double kContinues = 0.25;  // share of a face's points that lie in its plane as background
+
+// Median distance between neighbours along a stripe, as down-sampling left them; 0 where there are
+// none.
+double pitch_along_stripes(const ScanCloud& cloud) {
+  std::vector<double> distances;
+  for (int i = 1; i < cloud.size(); ++i)
+    if (cloud.origins[i].stripe >= 0 && cloud.origins[i].stripe == cloud.origins[i - 1].stripe &&
+        cloud.origins[i].segment == cloud.origins[i - 1].segment)
+      distances.push_back((cloud.points[i] - cloud.points[i - 1]).norm());
+  if (distances.empty()) return 0;
+  const auto middle = distances.begin() + static_cast<std::ptrdiff_t>(distances.size() / 2);
+  std::nth_element(distances.begin(), middle, distances.end());
+  return *middle;
+}
 
 struct Scales {
   double tolerance, connection, contact, spacing, noise;
@@ -34,9 +50,12 @@ Scales scales_of(const ScanCloud& cloud, const Sampling& sampling, double tolera
   scales.tolerance = tolerance_mm > 0 ? tolerance_mm
                                       : std::clamp(kNoiseTolerance * sampling.noise,
                                                    kLeastTolerance, kMostTolerance);
-  scales.connection = std::max(4.0, (cloud.organised() ? 2 : 4) * sampling.spacing);
-  scales.contact =
-      std::max({6.0, 3 * scales.tolerance, cloud.organised() ? 0 : 4 * sampling.spacing});
+  const double pitch = pitch_along_stripes(cloud);
+  scales.connection = std::max(
+      4.0, cloud.organised() ? 2 * std::max(sampling.spacing, pitch) : 4 * sampling.spacing);
+  // A stripe that crosses the seam has a point within one pitch of it on either plate.
+  scales.contact = std::max(
+      {6.0, 3 * scales.tolerance, cloud.organised() ? kPitches * pitch : 4 * sampling.spacing});
   return scales;
 }
 
@@ -57,7 +76,8 @@ JointSearch joint_search(const ScanCloud& cloud, const Scales& scales,
   search.angle_tolerance = settings.angle_tolerance_deg * kDegree;
   search.tolerance = scales.tolerance;
   search.stripes_min = settings.stripes_min;
-  search.length_min = cloud.organised() ? 0 : std::max(20.0, settings.stripes_min * scales.spacing);
+  search.length_min =
+      cloud.organised() ? kShortestSeam : std::max(20.0, settings.stripes_min * scales.spacing);
   search.contact = scales.contact;
   search.course.spacing = scales.spacing;
   search.course.tolerance = scales.tolerance;
