@@ -7,7 +7,6 @@
 #include <cmath>
 #include <opencv2/imgcodecs.hpp>
 #include <opencv2/imgproc.hpp>
-#include <stdexcept>
 
 namespace arcstart {
 namespace {
@@ -168,10 +167,9 @@ void draw_cloud(const CloudPicture& picture, const std::string& path) {
   try {
     written = cv::imwrite(path, image);
   } catch (const cv::Exception& error) {
-    throw std::runtime_error(
-        fmt::format("{}: cannot be written as a picture: {}", path, error.err));
+    throw PictureError(fmt::format("{}: cannot be written as a picture: {}", path, error.err));
   }
-  if (!written) throw std::runtime_error(path + ": cannot be written as a picture");
+  if (!written) throw PictureError(path + ": cannot be written as a picture");
 }
 
 }  // namespace arcstart

@@ -4,11 +4,17 @@
 #include <Eigen/Core>
 #include <array>
 #include <optional>
+#include <stdexcept>
 #include <string>
 #include <utility>
 #include <vector>
 
 namespace arcstart {
+
+class PictureError : public std::runtime_error {
+ public:
+  using std::runtime_error::runtime_error;
+};
 
 // All in one frame, mm.
 struct CloudPicture {

@@ -9,6 +9,7 @@
 #include "common/configuration.hpp"
 #include "services/command_line/cell_command.hpp"
 #include "services/command_line/extract_command.hpp"
+#include "services/command_line/find_seam_command.hpp"
 #include "services/command_line/monitor_command.hpp"
 #include "services/command_line/replay_command.hpp"
 #include "services/command_line/scan_command.hpp"
@@ -27,6 +28,7 @@ int main(int argc, char** argv) {
   add_scan_command(program, exit_code);
   add_replay_command(program, exit_code);
   add_extract_command(program, exit_code);
+  add_find_seam_command(program, exit_code);
   add_monitor_command(program, exit_code);
   add_cell_command(program, exit_code);
   try {

@@ -202,6 +202,8 @@ SeamResult find_seam(const ScanCloud& scan, const Background& background,
   // One entry a seam; those that may be one are measured again beside it.
   std::vector<Joint> seams;
   for (Joint& candidate : joints) {
+    if (candidate.course.stripes == 0 && !seams.empty())
+      continue;  // planes that only point at each other
     if (std::any_of(seams.begin(), seams.end(),
                     [&](const Joint& seam) { return same_seam(seam, candidate, scales.contact); }))
       continue;

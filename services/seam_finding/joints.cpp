@@ -14,6 +14,7 @@ constexpr double kBeside = 25;     // concavity is judged by what lies so near t
 constexpr double kFullReach = 10;  // a plate that reaches so far from the seam counts in full; mm
 constexpr double kLeastConcave = 0.8;
 constexpr double kLeastExplained = 0.5;
+constexpr double kNoComponent = 0.05;  // of a unit direction that only noise gives a sign
 constexpr double kSamePlane = 2 * kDegree;
 constexpr double kSameDirection = 3 * kDegree;
 constexpr double kAssumedViewSlant = 20 * kDegree;  // between an assumed viewpoint and a face
@@ -131,7 +132,8 @@ Eigen::Vector3d along_search(const ScanCloud& cloud, const Eigen::Vector3d& dire
       search && std::abs(search->dot(direction)) > 1e-6)
     return search->dot(direction) < 0 ? Eigen::Vector3d(-direction) : direction;
   for (const double component : direction)
-    if (std::abs(component) > 1e-3) return component < 0 ? Eigen::Vector3d(-direction) : direction;
+    if (std::abs(component) > kNoComponent)
+      return component < 0 ? Eigen::Vector3d(-direction) : direction;
   return direction;
 }
 

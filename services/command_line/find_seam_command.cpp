@@ -1,0 +1,236 @@
+#include "services/command_line/find_seam_command.hpp"
+
+#include <fmt/format.h>
+
+#include <cmath>
+#include <iostream>
+#include <memory>
+#include <stdexcept>
+
+#include "services/command_line/cloud_picture.hpp"
+#include "services/command_line/point_cloud_file.hpp"
+#include "services/command_line/seam_json.hpp"
+#include "services/seam_finding/find_seam.hpp"
+#include "services/seam_finding/scan_answer.hpp"
+
+namespace arcstart {
+namespace {
+
+constexpr double kViewHeight = 1000;  // of a viewpoint that is not given, above the plane; mm
+constexpr std::uint64_t kSeed = 1;
+
+struct Options {
+  std::string cloud, background, picture, cell, units = "mm";
+  std::vector<double> viewpoint, search_direction;
+  bool remove_plane = false, json = false;
+
+  double mm_per_unit() const { return units == "m" ? 1000 : 1; }
+};
+
+std::string in_words(const Eigen::Vector3d& v, int decimals) {
+  return fmt::format("({:.{}f}, {:.{}f}, {:.{}f})", v.x(), decimals, v.y(), decimals, v.z(),
+                     decimals);
+}
+
+void say(const std::string& text) { std::cerr << "find-seam: " << text << "\n"; }
+
+PointCloud read_in_mm(const std::string& path, const Options& options) {
+  PointCloud cloud = read_point_cloud(path);
+  for (Eigen::Vector3d& point : cloud.points) point *= options.mm_per_unit();
+  if (cloud.viewpoint) *cloud.viewpoint *= options.mm_per_unit();
+  if (cloud.skipped > 0)
+    say(fmt::format("{}: {} of {} points are not finite: left out", path, cloud.skipped,
+                    cloud.points.size() + cloud.skipped));
+  return cloud;
+}
+
+// A thousand times too large or too small is the likeliest mistake.
+void check_extent(const ScanCloud& cloud, const Options& options) {
+  Eigen::Vector3d low = cloud.points.front(), high = low;
+  for (const auto& point : cloud.points) low = low.cwiseMin(point), high = high.cwiseMax(point);
+  const double extent = (high - low).norm();
+  if (extent < 10 && options.units == "mm")
+    say(fmt::format("the cloud measures {:.3g} mm in all: is it in metres? Then give --units m",
+                    extent));
+  if (extent > 1e5 && options.units == "m")
+    say(fmt::format("the cloud measures {:.3g} m in all: is it in mm? Then leave --units m away",
+                    extent / 1000));
+}
+
+void set_viewpoint(ScanCloud& cloud, const PointCloud& file, const Options& options,
+                   const std::optional<Plane>& plane) {
+  if (!options.viewpoint.empty()) {
+    cloud.viewpoint =
+        Eigen::Map<const Eigen::Vector3d>(options.viewpoint.data()) * options.mm_per_unit();
+    cloud.viewpoint_known = true;
+  } else if (file.viewpoint) {
+    cloud.viewpoint = *file.viewpoint;
+    cloud.viewpoint_known = true;
+    say(fmt::format("seen from the file's VIEWPOINT {} mm", in_words(cloud.viewpoint, 1)));
+  } else if (plane) {
+    Eigen::Vector3d middle = Eigen::Vector3d::Zero();
+    for (const auto& point : cloud.points) middle += point / static_cast<double>(cloud.size());
+    cloud.viewpoint = middle + (kViewHeight - plane->signed_distance(middle)) * plane->normal;
+    say(
+        fmt::format("no viewpoint given: taken as seen from {} mm, 1 m above its dominant plane, "
+                    "on the side with more points",
+                    in_words(cloud.viewpoint, 0)));
+  }
+}
+
+void set_search_direction(ScanCloud& cloud, const Options& options) {
+  if (options.search_direction.empty()) {
+    say("no search direction given: taken as running along the longest seam's increasing x, then "
+        "y, then z");
+    return;
+  }
+  cloud.search_direction =
+      Eigen::Map<const Eigen::Vector3d>(options.search_direction.data()).normalized();
+}
+
+void draw(const ScanCloud& cloud, const SeamResult& result, const std::optional<Plane>& plane,
+          const Options& options) {
+  enum Part : char { kOther, kBackground, kFirst, kSecond };
+  std::vector<Part> parts(cloud.points.size(), kOther);
+  for (const int i : result.background) parts[i] = kBackground;
+  for (const int i : result.plates[0]) parts[i] = kFirst;
+  for (const int i : result.plates[1]) parts[i] = kSecond;
+  CloudPicture picture;
+  for (int i = 0; i < cloud.size(); ++i)
+    (parts[i] == kOther        ? picture.others
+     : parts[i] == kBackground ? picture.background
+                               : picture.plates[parts[i] - kFirst])
+        .push_back(cloud.points[i]);
+  for (const auto& other : result.alternatives)
+    picture.alternatives.emplace_back(other.start, other.end);
+  if (plane) picture.up = plane->normal;
+  picture.toward_viewer = picture.up + picture.up.unitOrthogonal();
+  picture.title = options.cloud + ": " + result.reason;
+  if (result.verdict == SeamResult::Verdict::kFound) {
+    picture.seam = {result.start, result.end};
+    picture.toward_viewer = result.normals[0] + result.normals[1] - 0.6 * result.direction;
+    picture.title = fmt::format("{}: {}, start {} mm", options.cloud, result.joint_type,
+                                in_words(result.start, 1));
+  }
+  draw_cloud(picture, options.picture);
+  say("picture: " + options.picture);
+}
+
+void tell(const SeamResult& result) {
+  switch (result.verdict) {
+    case SeamResult::Verdict::kFound:
+      say(fmt::format("found {}, start {} mm, end {} mm, direction {}; {}", result.joint_type,
+                      in_words(result.start, 2), in_words(result.end, 2),
+                      in_words(result.direction, 4), result.remark));
+      break;
+    case SeamResult::Verdict::kAmbiguous:
+      say("ambiguous: " + result.reason);
+      break;
+    case SeamResult::Verdict::kRefused:
+      say("refused: " + result.reason);
+      break;
+  }
+  for (const auto& other : result.alternatives)
+    say(fmt::format("also {} mm to {} mm, score {:.1f}: {}", in_words(other.start, 1),
+                    in_words(other.end, 1), other.score, other.reason));
+}
+
+int run(const Options& options) try {
+  const auto settings =
+      options.cell.empty()
+          ? SeamFindingSettings{}
+          : Configuration::from_file(options.cell).read<SeamFindingSettings>("seam_finding");
+  const PointCloud file = read_in_mm(options.cloud, options);
+  ScanCloud cloud = unorganised_cloud(file.points);
+  check_extent(cloud, options);
+  const auto plane = dominant_plane(cloud, kSeed);
+  set_viewpoint(cloud, file, options, plane);
+  set_search_direction(cloud, options);
+
+  ScanCloud empty_cell;  // outlives the background that refers to it
+  std::unique_ptr<Background> background = std::make_unique<NoBackground>();
+  if (!options.background.empty()) {
+    empty_cell = unorganised_cloud(read_in_mm(options.background, options).points);
+    background = std::make_unique<SurfaceBackground>(empty_cell, settings.background_distance_mm);
+  } else if (options.remove_plane && plane) {
+    background = std::make_unique<PlaneBackground>(cloud, *plane);
+  }
+  const SeamResult result = find_seam(cloud, *background, settings, kSeed);
+
+  tell(result);
+  if (options.json) {
+    seam_t seam = empty_seam();
+    fill_in(seam, result);
+    seam.points = cloud.size();
+    std::cout << seam_to_json(seam).dump() << "\n";
+  }
+  if (!options.picture.empty()) draw(cloud, result, plane, options);
+  return result.verdict == SeamResult::Verdict::kFound ? 0 : 1;
+} catch (const PointCloudFileError& error) {
+  say(error.what());
+  return 2;
+} catch (const PictureError& error) {
+  say(error.what());
+  return 2;
+}
+
+CLI::Validator finite_vector() {
+  return CLI::Validator(
+      [](std::string& text) -> std::string {
+        const double value = std::strtod(text.c_str(), nullptr);
+        return std::isfinite(value) && std::abs(value) < 1e9 ? "" : "must be finite, is " + text;
+      },
+      "");
+}
+
+}  // namespace
+
+void add_find_seam_command(CLI::App& parent, int& exit_code) {
+  auto options = std::make_shared<Options>();
+  CLI::App* command =
+      parent.add_subcommand("find-seam", "Find the weld seam in a point cloud from a file");
+  command->add_option("CLOUD", options->cloud, "PCD (ascii, binary) or PLY (ascii, little endian)")
+      ->required();
+  auto* background = command->add_option("--background", options->background,
+                                         "Cloud of the empty cell, which is taken away");
+  command
+      ->add_flag("--remove-plane", options->remove_plane,
+                 "Take away the dominant plane, what lies up to five times the cloud's tolerance "
+                 "above it, and all below")
+      ->excludes(background);
+  command->add_option("--units", options->units, "Of the files and of --viewpoint")
+      ->check(CLI::IsMember({"mm", "m"}))
+      ->capture_default_str();
+  command
+      ->add_option("--viewpoint", options->viewpoint,
+                   "Where the sensor was, x,y,z; without it the file's, else 1 m above the "
+                   "dominant plane, on the side with more points")
+      ->delimiter(',')
+      ->expected(3)
+      ->check(finite_vector());
+  command
+      ->add_option("--search-direction", options->search_direction,
+                   "The way of the search, x,y,z: where it begins, the seam starts; without it "
+                   "along the longest seam's increasing x, then y, then z")
+      ->delimiter(',')
+      ->expected(3)
+      ->check(finite_vector());
+  command->add_flag("--json", options->json,
+                    "Print the answer on standard output, keys as in seam_t (mm and rad)");
+  command->add_option("--picture", options->picture,
+                      "PNG of the cloud with background, plates, seam and start, from two sides");
+  command->add_option("--cell", options->cell,
+                      "The cell's file, cell.yaml, whose section seam_finding is to be used");
+  command->footer(
+      "Without --background or --remove-plane nothing is taken away, and the line of a plate on "
+      "the table counts as a seam.\n"
+      "Exit: 0 found; 1 ambiguous or refused; 2 bad input.");
+  command->callback([options, &exit_code] {
+    const auto& way = options->search_direction;
+    if (!way.empty() && way[0] == 0 && way[1] == 0 && way[2] == 0)
+      throw CLI::ValidationError("--search-direction", "must not be 0,0,0");
+    exit_code = run(*options);
+  });
+}
+
+}  // namespace arcstart
