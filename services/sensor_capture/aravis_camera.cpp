@@ -236,7 +236,7 @@ void AravisCamera::switch_laser(bool on) {
 
 // Aravis' own heartbeat comes once a second, too seldom for a timeout that keeps the laser dark.
 void AravisCamera::keep_alive() {
-  const auto interval = std::chrono::milliseconds(settings_.heartbeat_ms / 4);
+  const auto interval = std::chrono::milliseconds(settings_.heartbeat_ms / 10);
   ArvDevice* device = arv_camera_get_device(camera_.get());
   std::unique_lock lock(mutex_);
   while (!ended_.wait_for(lock, interval, [this] { return ending_ || !trouble_.empty(); })) {

@@ -28,7 +28,7 @@ struct SensorCaptureSettings {
   std::string laser_off_source = "Off";
 
   // What a killed process leaves lit, at most: the camera stops when it hears nothing for so long.
-  int heartbeat_ms = 1000;
+  int heartbeat_ms = 2000;
   int packet_size_bytes = 8192;  // needs jumbo frames on the network: 1400 without
   int socket_buffer_bytes = 4194304;
   // Packets taken from the network card directly, as root: gentler on a real network, but nothing

@@ -89,7 +89,7 @@ TEST_CASE("aravis: frames, their region, numbers and stamps") {
   CHECK(found.shortest_period_us == Approx(9'500).margin(10));
   CHECK(camera.read(kLineSource) == kSourceOff);
   CHECK(camera.read(kLineMode) == 1);
-  CHECK(camera.read(0x938) == 1000);  // heartbeat timeout, ms
+  CHECK(camera.read(0x938) == 2000);  // heartbeat timeout, ms
 
   std::int64_t last_seq = -1, last_time = 0;
   // The fake's count starts shortly before its wrap from 65535 to 1.
