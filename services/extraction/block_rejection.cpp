@@ -98,7 +98,7 @@ CurvatureBound curvature_bound(const GaussianKernels& kernels) {
   // mixed one, whose weight 2 cos sin is at most 1.
   const double remainder = g2.error * norm(g0.whole) + norm(g2.smoothed_r) * g0.error +
                            g1.error * (norm(g1.whole) + norm(g1.smoothed_r));
-  return {reach - 2, 0.5 * 1.005 * largest, 0.5 * remainder * 255};
+  return {reach, 0.5 * 1.005 * largest, 0.5 * remainder};
 }
 
 namespace {
@@ -109,6 +109,8 @@ struct RowFold {
   std::uint16_t* line;  // width + 4
   std::uint16_t* lowest;
   std::uint16_t* highest;
+  std::uint8_t* plain_lowest;
+  std::uint8_t* plain_highest;
 };
 
 // Smooths one row (x 256, exact in 16 bits: 255 * 256 < 65536) and folds it into the lowest and
@@ -131,6 +133,12 @@ ARCSTART_INLINE_BODY void fold_row_body(const RowFold& fold) {
     lowest[u] = grey < lowest[u] ? grey : lowest[u];
     highest[u] = grey > highest[u] ? grey : highest[u];
   }
+  std::uint8_t* __restrict plain_lowest = fold.plain_lowest;
+  std::uint8_t* __restrict plain_highest = fold.plain_highest;
+  for (int u = 0; u < width; ++u) {
+    plain_lowest[u] = c[u] < plain_lowest[u] ? c[u] : plain_lowest[u];
+    plain_highest[u] = c[u] > plain_highest[u] ? c[u] : plain_highest[u];
+  }
 }
 ARCSTART_FOR_EACH_INSTRUCTION_SET(fold_row, (const RowFold& fold), (fold))
 
@@ -139,47 +147,58 @@ ARCSTART_FOR_EACH_INSTRUCTION_SET(fold_row, (const RowFold& fold), (fold))
 void BlockRejection::fold_ranges(const GreyImage& image) {
   columns_ = (image.width + kWidth - 1) / kWidth;
   rows_ = (image.height + kHeight - 1) / kHeight;
-  lowest_.assign(columns_ * rows_, 65535);
-  highest_.assign(columns_ * rows_, 0);
+  const std::size_t blocks = static_cast<std::size_t>(columns_) * rows_;
+  smoothed_.lowest.assign(blocks, 65535);
+  smoothed_.highest.assign(blocks, 0);
+  plain_.lowest.assign(blocks, 255);
+  plain_.highest.assign(blocks, 0);
   line_.resize(image.width + 4);
   for (int row = 0; row < rows_; ++row) {
-    row_lowest_.assign(image.width, 65535);
-    row_highest_.assign(image.width, 0);
+    line_lowest_.assign(image.width, 65535);
+    line_highest_.assign(image.width, 0);
+    plain_lowest_.assign(image.width, 255);
+    plain_highest_.assign(image.width, 0);
     for (int v = row * kHeight; v < std::min((row + 1) * kHeight, image.height); ++v) {
-      RowFold fold{{}, image.width, line_.data(), row_lowest_.data(), row_highest_.data()};
+      RowFold fold{{},
+                   image.width,
+                   line_.data(),
+                   line_lowest_.data(),
+                   line_highest_.data(),
+                   plain_lowest_.data(),
+                   plain_highest_.data()};
       for (int k = -2; k <= 2; ++k) fold.rows[k + 2] = image.row(reflect_101(v + k, image.height));
       fold_row(fold);
     }
     for (int u = 0; u < image.width; ++u) {
       const int block = row * columns_ + u / kWidth;
-      lowest_[block] = std::min(lowest_[block], row_lowest_[u]);
-      highest_[block] = std::max(highest_[block], row_highest_[u]);
+      smoothed_.lowest[block] = std::min(smoothed_.lowest[block], line_lowest_[u]);
+      smoothed_.highest[block] = std::max(smoothed_.highest[block], line_highest_[u]);
+      plain_.lowest[block] = std::min(plain_.lowest[block], plain_lowest_[u]);
+      plain_.highest[block] = std::max(plain_.highest[block], plain_highest_[u]);
     }
   }
 }
 
-void BlockRejection::widen(int reach_columns, int reach_rows) {
-  widened_lowest_ = lowest_;
-  widened_highest_ = highest_;
-  for (int row = 0; row < rows_; ++row)
-    for (int column = 0; column < columns_; ++column)
-      for (int c = std::max(0, column - reach_columns);
-           c <= std::min(columns_ - 1, column + reach_columns); ++c) {
-        auto& low = widened_lowest_[row * columns_ + column];
-        auto& high = widened_highest_[row * columns_ + column];
-        low = std::min(low, lowest_[row * columns_ + c]);
-        high = std::max(high, highest_[row * columns_ + c]);
-      }
-  lowest_ = widened_lowest_;
-  highest_ = widened_highest_;
-  for (int row = 0; row < rows_; ++row)
-    for (int r = std::max(0, row - reach_rows); r <= std::min(rows_ - 1, row + reach_rows); ++r)
-      for (int column = 0; column < columns_; ++column) {
-        auto& low = widened_lowest_[row * columns_ + column];
-        auto& high = widened_highest_[row * columns_ + column];
-        low = std::min(low, lowest_[r * columns_ + column]);
-        high = std::max(high, highest_[r * columns_ + column]);
-      }
+template <class Value>
+void BlockRejection::Ranges<Value>::widen(int columns, int rows, int reach_columns, int reach_rows,
+                                          std::vector<Value>& work) {
+  const auto spread = [&](std::vector<Value>& values, auto better) {
+    work = values;
+    for (int row = 0; row < rows; ++row)
+      for (int column = 0; column < columns; ++column)
+        for (int c = std::max(0, column - reach_columns);
+             c <= std::min(columns - 1, column + reach_columns); ++c)
+          work[row * columns + column] =
+              better(work[row * columns + column], values[row * columns + c]);
+    values = work;
+    for (int row = 0; row < rows; ++row)
+      for (int r = std::max(0, row - reach_rows); r <= std::min(rows - 1, row + reach_rows); ++r)
+        for (int column = 0; column < columns; ++column)
+          values[row * columns + column] =
+              better(values[row * columns + column], work[r * columns + column]);
+  };
+  spread(lowest, [](Value a, Value b) { return std::min(a, b); });
+  spread(highest, [](Value a, Value b) { return std::max(a, b); });
 }
 
 void BlockRejection::mark(const GreyImage& image, const GaussianKernels& kernels,
@@ -189,12 +208,17 @@ void BlockRejection::mark(const GreyImage& image, const GaussianKernels& kernels
     bound_sigma_ = kernels.sigma;
   }
   fold_ranges(image);
-  widen((bound_.reach + kWidth - 1) / kWidth, (bound_.reach + kHeight - 1) / kHeight);
-  // 1/64 grey value for the rounding of float sums.
-  const double least_range = 256 * (bound_.least_range(least_curvature) - 1.0 / 64);
-  active_.resize(lowest_.size());
-  for (std::size_t block = 0; block < active_.size(); ++block)
-    active_[block] = widened_highest_[block] - widened_lowest_[block] >= least_range;
+  const int reach_columns = (bound_.reach + kWidth - 1) / kWidth,
+            reach_rows = (bound_.reach + kHeight - 1) / kHeight;
+  smoothed_.widen(columns_, rows_, reach_columns, reach_rows, work16_);
+  plain_.widen(columns_, rows_, reach_columns, reach_rows, work8_);
+  active_.resize(smoothed_.lowest.size());
+  for (std::size_t block = 0; block < active_.size(); ++block) {
+    const double smoothed_range = (smoothed_.highest[block] - smoothed_.lowest[block]) / 256.0;
+    const double range = plain_.highest[block] - plain_.lowest[block];
+    // 1/64 grey value for the rounding of float sums.
+    active_[block] = bound_.highest(smoothed_range + 1.0 / 64, range) >= least_curvature;
+  }
 }
 
 double BlockRejection::active_share() const {

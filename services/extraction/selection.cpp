@@ -8,18 +8,16 @@ namespace arcstart {
 namespace {
 
 // Worth and cost are in columns of clean stripe.
-constexpr float kBreakCost = 20;         // to leave a line for any other place
-constexpr int kNear = 4;                 // columns within which a path goes on as on one line
-constexpr float kLongestNearJump = 6;    // px
-constexpr int kFar = 100;                // columns over which a line may be found again after a gap
-constexpr float kSteepest = 4;           // slope believed in
-constexpr int kMostOfLine = 6;           // candidates of a line
-constexpr float kSameLine = 4;           // px: nearer points of a column belong to one stripe
-constexpr float kOutshone = 1.7f;        // times as strong
-constexpr int kReflectionWindow = 100;   // points of the chain to each side
-constexpr int kReflectionEvidence = 80;  // points at least
+constexpr float kBreakCost = 20;       // to leave a line for any other place
+constexpr int kNear = 4;               // columns within which a path goes on as on one line
+constexpr float kLongestNearJump = 6;  // px
+constexpr int kFar = 100;              // columns over which a line may be found again after a gap
+constexpr float kSteepest = 4;         // slope believed in
+constexpr int kMostOfLine = 6;         // candidates of a line
+constexpr float kSameLine = 4;         // px: nearer points of a column belong to one stripe
 
-constexpr float kWider = 0.6f, kNarrower = 1.2f;  // logarithm of a width's ratio to the usual that is unlikely
+constexpr float kWider = 0.6f,
+                kNarrower = 1.2f;  // logarithm of a width's ratio to the usual that is unlikely
 
 using Weighted = std::pair<float, float>;  // value, weight
 
@@ -43,17 +41,17 @@ float offset_from_line(const Candidate& from, const Candidate& to) {
 
 }  // namespace
 
-void Selector::collect(const std::vector<RidgePoint>& points, const std::vector<Chain>& chains,
+void Selector::collect(const std::vector<RidgePoint>& points, const std::vector<Strand>& strands,
                        bool along_rows) {
   std::vector<Candidate> all;
   int lines = 0;
-  for (int c = 0; c < static_cast<int>(chains.size()); ++c)
-    for (int i = 0; i < static_cast<int>(chains[c].size()); ++i) {
-      const RidgePoint& p = points[chains[c][i]];
+  for (int c = 0; c < static_cast<int>(strands.size()); ++c)
+    for (const int i : strands[c].points) {
+      const RidgePoint& p = points[i];
       Candidate candidate{};
-      candidate.point = chains[c][i];
-      candidate.chain = c;
-      candidate.position = i;
+      candidate.point = i;
+      candidate.strand = c;
+      candidate.reflection = strands[c].reflection;
       candidate.line = along_rows ? p.row : p.column;
       candidate.along = along_rows ? p.v : p.u;
       candidate.across = along_rows ? p.u : p.v;
@@ -80,39 +78,17 @@ void Selector::collect(const std::vector<RidgePoint>& points, const std::vector<
   }
   for (int line = 0; line < lines; ++line) line_begin_[line + 1] += line_begin_[line];
 
-  // A chain's first and last candidate along the image, whatever way the chain was followed.
-  std::vector<int> first(chains.size(), -1), last(chains.size(), -1);
+  // A strand's first and last candidate along the image, whatever way it was followed.
+  std::vector<int> first(strands.size(), -1), last(strands.size(), -1);
   for (int i = 0; i < static_cast<int>(candidates_.size()); ++i) {
-    const int chain = candidates_[i].chain;
-    if (first[chain] < 0) first[chain] = i;
-    last[chain] = i;
+    const int strand = candidates_[i].strand;
+    if (first[strand] < 0) first[strand] = i;
+    last[strand] = i;
   }
   for (const int i : first)
-    if (i >= 0) candidates_[i].starts_chain = true;
+    if (i >= 0) candidates_[i].starts_strand = true;
   for (const int i : last)
-    if (i >= 0) candidates_[i].ends_chain = true;
-}
-
-void Selector::mark_reflections(const std::vector<Chain>& chains) {
-  // Along each chain, how many of its points up to here have a stronger one in their column.
-  std::vector<std::vector<int>> outshone(chains.size());
-  for (std::size_t c = 0; c < chains.size(); ++c) outshone[c].assign(chains[c].size() + 1, 0);
-  for (const Candidate& candidate : candidates_)
-    for (int j = line_begin_[candidate.line]; j < line_begin_[candidate.line + 1]; ++j)
-      if (candidates_[j].curvature > kOutshone * candidate.curvature &&
-          std::abs(candidates_[j].across - candidate.across) > kSameLine) {
-        outshone[candidate.chain][candidate.position + 1] = 1;
-        break;
-      }
-  for (auto& sums : outshone)
-    for (std::size_t i = 1; i < sums.size(); ++i) sums[i] += sums[i - 1];
-  for (Candidate& candidate : candidates_) {
-    const auto& sums = outshone[candidate.chain];
-    const int size = static_cast<int>(sums.size()) - 1;
-    const int begin = std::max(0, candidate.position - kReflectionWindow);
-    const int end = std::min(size, candidate.position + kReflectionWindow + 1);
-    candidate.outshone = 2 * (sums[end] - sums[begin]) > std::max(end - begin, kReflectionEvidence);
-  }
+    if (i >= 0) candidates_[i].ends_strand = true;
 }
 
 void Selector::rate(const std::vector<float>& widths) {
@@ -133,7 +109,7 @@ void Selector::rate(const std::vector<float>& widths) {
       likeness = std::exp(-0.5f * difference * difference);
     }
     const float strength = std::sqrt(std::min(1.0f, c.curvature / usual_curvature));
-    c.worth = c.outshone ? -0.1f : strength * likeness - 0.1f;
+    c.worth = c.reflection ? -0.1f : strength * likeness - 0.1f;
   }
 }
 
@@ -152,7 +128,7 @@ float Selector::leaving_cost(const Candidate& from, const Candidate& to) const {
 std::vector<int> Selector::best_path() const {
   const int count = static_cast<int>(candidates_.size());
   std::vector<float> score(count);
-  std::vector<int> previous(count, -1), chain_ends;
+  std::vector<int> previous(count, -1), strand_ends;
   int best = -1;  // of all in the lines before
   const int lines = static_cast<int>(line_begin_.size()) - 1;
   for (int line = 0; line < lines; ++line) {
@@ -166,8 +142,8 @@ std::vector<int> Selector::best_path() const {
       };
       for (int j = line_begin_[std::max(0, line - kNear)]; j < line_begin_[line]; ++j)
         consider(j, leaving_cost(candidates_[j], here));
-      if (here.starts_chain)
-        for (const int j : chain_ends)
+      if (here.starts_strand)
+        for (const int j : strand_ends)
           if (candidates_[j].line < line - kNear && candidates_[j].line >= line - kFar)
             consider(j, leaving_cost(candidates_[j], here));
       if (best >= 0) consider(best, kBreakCost);
@@ -175,7 +151,7 @@ std::vector<int> Selector::best_path() const {
     }
     for (int i = line_begin_[line]; i < line_begin_[line + 1]; ++i) {
       if (best < 0 || score[i] > score[best]) best = i;
-      if (candidates_[i].ends_chain) chain_ends.push_back(i);
+      if (candidates_[i].ends_strand) strand_ends.push_back(i);
     }
   }
   std::vector<int> path;
@@ -208,14 +184,14 @@ void Selector::split_path(const std::vector<int>& path, const SelectionSettings&
 }
 
 void Selector::add_second_candidates(const SelectionSettings& settings, Selection& selection) {
-  std::vector<std::pair<int, int>> seconds;  // chain, candidate
+  std::vector<std::pair<int, int>> seconds;  // strand, candidate
   for (std::size_t line = 0; line + 1 < line_begin_.size(); ++line)
     for (int i = line_begin_[line]; i < line_begin_[line + 1]; ++i) {
       if (i == chosen_[line]) continue;
       if (chosen_[line] >= 0 &&
           std::abs(candidates_[i].across - candidates_[chosen_[line]].across) <= kSameLine)
         continue;
-      seconds.push_back({candidates_[i].chain, i});
+      seconds.push_back({candidates_[i].strand, i});
       break;  // the strongest one only
     }
   std::sort(seconds.begin(), seconds.end());
@@ -247,8 +223,11 @@ void Selector::select(const std::vector<RidgePoint>& points, const std::vector<C
       across_image += points[i].curvature * (points[i].normal_v * points[i].normal_v -
                                              points[i].normal_u * points[i].normal_u);
   selection.along_rows = across_image < 0;
-  collect(points, chains, selection.along_rows);
-  mark_reflections(chains);
+  const int lines = selection.along_rows ? settings.height : settings.width;
+  const Sight sight{selection.along_rows, settings.margin, lines - 1 - settings.margin};
+  std::vector<Strand> strands = cut_at_junctions(points, chains, sight, settings.junction_reach);
+  mark_reflections(points, sight, strands);
+  collect(points, strands, selection.along_rows);
   rate(widths);
   split_path(best_path(), settings, selection);
   add_second_candidates(settings, selection);

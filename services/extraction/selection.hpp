@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "services/extraction/linking.hpp"
+#include "services/extraction/reflections.hpp"
 #include "services/extraction/ridge.hpp"
 
 namespace arcstart {
@@ -25,8 +26,10 @@ struct Selection {
 };
 
 struct SelectionSettings {
-  int longest_hole = 5;    // columns without a centre that do not yet end a branch
-  int fewest_points = 10;  // of a branch
+  int longest_hole = 5;                   // columns without a centre that do not yet end a branch
+  int fewest_points = 10;                 // of a branch
+  int width = 0, height = 0, margin = 0;  // of the image, and of its border without points; px
+  double junction_reach = 7;  // px within which lines that meet are seen to end: a few sigma
 };
 
 class Selector {
@@ -47,16 +50,15 @@ class Selector {
 
  private:
   struct Candidate {
-    int point, chain, position;  // position in the chain
-    int line;                    // column, or row where along_rows
-    float along, across;         // px, along and across the image's main direction of the stripe
-    float slope;                 // d across / d along
+    int point, strand;
+    int line;             // column, or row where along_rows
+    float along, across;  // px, along and across the image's main direction of the stripe
+    float slope;          // d across / d along
     float curvature, worth;
-    bool starts_chain, ends_chain, outshone;
+    bool starts_strand, ends_strand, reflection;
   };
-  void collect(const std::vector<RidgePoint>& points, const std::vector<Chain>& chains,
+  void collect(const std::vector<RidgePoint>& points, const std::vector<Strand>& strands,
                bool along_rows);
-  void mark_reflections(const std::vector<Chain>& chains);
   void rate(const std::vector<float>& widths);
   std::vector<int> best_path() const;
   float leaving_cost(const Candidate& from, const Candidate& to) const;

@@ -9,7 +9,7 @@ namespace arcstart {
 namespace {
 
 constexpr double kLeastSigma = 1.2, kLargestSigma = 12;  // px, followed
-constexpr double kFirstLooks[] = {1.5, 3, 6};            // px, where no scale is known
+constexpr double kFirstLooks[] = {2, 6};                 // px, where no scale is known
 constexpr double kFollowing = 0.2;  // share of the difference taken up by each image
 constexpr int kFewestWidths = 100;  // to follow
 // Standard deviation of a second derivative under white noise is 0.2443 noise / sigma^3 (3 / (16
@@ -34,11 +34,15 @@ void StripeExtractor::look_at(const GreyImage& image, double sigma) {
   detector_.detect(image, kernels_, settings_.weakest_share * strong, points_);
   linker_.link(points_, {strong, settings_.fewest_centres}, chains_);
   widths_.assign(points_.size(), 0);
-  for (const Chain& chain : chains_)
-    for (const int i : chain)
-      widths_[i] = static_cast<float>(profile_width(image, points_[i], sigma, noise_));
-  selector_.select(points_, chains_, widths_, {settings_.longest_hole_px, settings_.fewest_centres},
-                   selection_);
+  for (const Chain& chain : chains_) measure_widths(image, points_, chain, sigma, noise_, widths_);
+  SelectionSettings selection;
+  selection.longest_hole = settings_.longest_hole_px;
+  selection.fewest_points = settings_.fewest_centres;
+  selection.width = image.width;
+  selection.height = image.height;
+  selection.margin = RidgeDetector::margin(kernels_);
+  selection.junction_reach = 3 * sigma;
+  selector_.select(points_, chains_, widths_, selection, selection_);
 }
 
 double StripeExtractor::chosen_strength() const {

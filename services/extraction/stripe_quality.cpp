@@ -9,6 +9,9 @@
 namespace arcstart {
 namespace {
 
+constexpr int kMostReach = 64;  // px to each side of a profile
+constexpr int kNeighbours = 4;  // to each side whose profiles are averaged with a point's own
+
 // Between the pixels' centres, bilinear; the border's value beyond it.
 double grey_at(const GreyImage& image, double u, double v) {
   u = std::clamp(u, 0.0, image.width - 1.0);
@@ -24,10 +27,44 @@ double grey_at(const GreyImage& image, double u, double v) {
 
 // Where the profile falls below the level, going from `at` by `step`; between the samples. At most
 // the last sample.
-double crossing(const double* profile, int size, int at, int step, double level) {
+double crossing(const float* profile, int size, int at, int step, double level) {
   while (at + step >= 0 && at + step < size && profile[at + step] > level) at += step;
   if (at + step < 0 || at + step >= size) return at;
   return at + step * (profile[at] - level) / (profile[at] - profile[at + step]);
+}
+
+// Half the width at half the height is 1.177 standard deviations of a Gaussian and sqrt(3) of a
+// bar, to which a clipped Gaussian comes the nearer, the more of it is clipped.
+double profile_width(const std::vector<float>& raw, double sigma, double noise) {
+  // The sides' level: the median of the outer quarter of each, joined by a line.
+  const int size = static_cast<int>(raw.size()), reach = size / 2, quarter = std::max(2, reach / 4);
+  std::array<float, kMostReach> side;
+  const auto level = [&](int begin) {
+    std::copy_n(raw.begin() + begin, quarter, side.begin());
+    std::nth_element(side.begin(), side.begin() + quarter / 2, side.begin() + quarter);
+    return side[quarter / 2];
+  };
+  const float left = level(0), right = level(size - quarter);
+  std::array<float, 2 * kMostReach + 1> profile;
+  for (int i = 0; i < size; ++i)
+    profile[i] =
+        raw[i] - left - (right - left) * static_cast<float>(i) / static_cast<float>(size - 1);
+
+  const int near = std::max(1, static_cast<int>(sigma));
+  const auto top =
+      std::max_element(profile.begin() + reach - near, profile.begin() + reach + near + 1);
+  if (*top <= 2 * noise) return 0;
+  const int at = static_cast<int>(top - profile.begin());
+  const double half_width = 0.5 * (crossing(profile.data(), size, at, 1, *top / 2) -
+                                   crossing(profile.data(), size, at, -1, *top / 2));
+  int white = 0;
+  for (int i = at; i < size && raw[i] > 254; ++i) ++white;
+  for (int i = at - 1; i >= 0 && raw[i] > 254; --i) ++white;
+  const double flat = std::min(1.0, white / (2 * half_width));
+  const double width = half_width * ((1 - flat) / 1.1774 + flat / std::numbers::sqrt3);
+  constexpr double kPixel = 1.0 / 12,
+                   kInterpolation = 1.0 / 6;  // what they add to a profile's variance
+  return std::sqrt(std::max(width * width - kPixel - kInterpolation, 0.01));
 }
 
 }  // namespace
@@ -55,42 +92,31 @@ double noise_of(const GreyImage& image) {
   return std::max(patches[patches.size() / 2], 1 / std::sqrt(12.0));
 }
 
-double profile_width(const GreyImage& image, const RidgePoint& point, double sigma, double noise) {
-  constexpr int kMost = 64;
-  const int reach = std::min(kMost, static_cast<int>(std::ceil(5 * sigma)) + 2);
-  std::array<double, 2 * kMost + 1> raw;
-  for (int k = -reach; k <= reach; ++k)
-    raw[k + reach] = grey_at(image, point.u + k * point.normal_u, point.v + k * point.normal_v);
-  std::array<double, 2 * kMost + 1> profile = raw;
-
-  // The sides' level: the median of the outer quarter of each, joined by a line.
-  const int size = 2 * reach + 1, quarter = std::max(2, reach / 4);
-  std::array<double, kMost> side;
-  const auto level = [&](int begin) {
-    std::copy_n(profile.begin() + begin, quarter, side.begin());
-    std::nth_element(side.begin(), side.begin() + quarter / 2, side.begin() + quarter);
-    return side[quarter / 2];
-  };
-  const double left = level(0), right = level(size - quarter);
-  for (int i = 0; i < size; ++i) profile[i] -= left + (right - left) * i / (size - 1);
-
-  const int near = std::max(1, static_cast<int>(sigma));
-  const auto top =
-      std::max_element(profile.begin() + reach - near, profile.begin() + reach + near + 1);
-  if (*top <= 3 * noise) return 0;
-  const int at = static_cast<int>(top - profile.begin());
-  const double half_width = 0.5 * (crossing(profile.data(), size, at, 1, *top / 2) -
-                                   crossing(profile.data(), size, at, -1, *top / 2));
-  int white = 0;
-  for (int i = at; i < size && raw[i] > 254; ++i) ++white;
-  for (int i = at - 1; i >= 0 && raw[i] > 254; --i) ++white;
-  // Half the width at half the height is 1.177 standard deviations of a Gaussian and sqrt(3) of a
-  // bar, to which a clipped Gaussian comes the nearer, the more of it is clipped.
-  const double flat = std::min(1.0, white / (2 * half_width));
-  const double width = half_width * ((1 - flat) / 1.1774 + flat / std::numbers::sqrt3);
-  constexpr double kPixel = 1.0 / 12,
-                   kInterpolation = 1.0 / 6;  // what they add to a profile's variance
-  return std::sqrt(std::max(width * width - kPixel - kInterpolation, 0.01));
+void measure_widths(const GreyImage& image, const std::vector<RidgePoint>& points,
+                    const std::vector<int>& chain, double sigma, double noise,
+                    std::vector<float>& widths) {
+  const int reach = std::min(kMostReach, static_cast<int>(std::ceil(5 * sigma)) + 2);
+  const int size = 2 * reach + 1, count = static_cast<int>(chain.size());
+  std::vector<float> profiles(static_cast<std::size_t>(size) * count), mean(size);
+  float sense = 1;  // normals have none of their own: neighbours' are made alike
+  for (int i = 0; i < count; ++i) {
+    const RidgePoint& p = points[chain[i]];
+    if (i > 0) {
+      const RidgePoint& before = points[chain[i - 1]];
+      if (p.normal_u * before.normal_u + p.normal_v * before.normal_v < 0) sense = -sense;
+    }
+    for (int k = -reach; k <= reach; ++k)
+      profiles[i * size + k + reach] = static_cast<float>(
+          grey_at(image, p.u + sense * k * p.normal_u, p.v + sense * k * p.normal_v));
+  }
+  for (int i = 0; i < count; ++i) {
+    const int begin = std::max(0, i - kNeighbours), end = std::min(count, i + kNeighbours + 1);
+    std::fill(mean.begin(), mean.end(), 0.0f);
+    for (int j = begin; j < end; ++j)
+      for (int k = 0; k < size; ++k) mean[k] += profiles[j * size + k];
+    for (float& grey : mean) grey /= static_cast<float>(end - begin);
+    widths[chain[i]] = static_cast<float>(profile_width(mean, sigma, noise));
+  }
 }
 
 double centre_deviation(double curvature, double sigma, double noise) {

@@ -2,6 +2,8 @@
 // centre.
 #pragma once
 
+#include <vector>
+
 #include "services/extraction/grey_image.hpp"
 #include "services/extraction/ridge.hpp"
 
@@ -12,11 +14,14 @@ namespace arcstart {
 // least that of rounding, 0.29. 0 for an image below 16 x 16.
 double noise_of(const GreyImage& image);
 
-// Standard deviation of the stripe's profile across the point, px; 0 where it has none that stands
-// out from its surroundings by more than three times the noise. From its width at half its height
-// above the line that joins the grey values on both sides: a halo does not count; a top clipped at
-// white is allowed for. sigma: of the kernels, sets how far away the sides are.
-double profile_width(const GreyImage& image, const RidgePoint& point, double sigma, double noise);
+// Standard deviation of the stripe's profile across each point of a chain, px, into widths[point];
+// 0 where none stands out from its surroundings by twice the noise. From its width at half its
+// height above the line that joins the grey values on both sides: a halo does not count; a top
+// clipped at white is allowed for. The profile is the mean over the neighbours along the chain, so
+// that speckle does not cut it in two. sigma: of the kernels, sets how far away the sides are.
+void measure_widths(const GreyImage& image, const std::vector<RidgePoint>& points,
+                    const std::vector<int>& chain, double sigma, double noise,
+                    std::vector<float>& widths);
 
 // White-noise law of the centre: 0.1995 noise (w^2 + s^2)^(3/2) / (A w s^2), where A w / (w^2 +
 // s^2)^(3/2) is the curvature.

@@ -13,10 +13,10 @@ constexpr double kStep = 0.5;  // of the curve along u; px
 
 class Renderer {
  public:
-  Renderer(const SceneSettings& settings, std::uint64_t seed)
+  Renderer(const StripeSceneSettings& settings, std::uint64_t seed)
       : settings_(settings), random_(seed * 7919 + 17) {}
 
-  Scene render() {
+  StripeScene render() {
     draw_curve();
     stripe_ = cv::Mat::zeros(settings_.height, settings_.width, CV_32F);
     add_stripe(0, 0, settings_.width, 1);
@@ -224,7 +224,7 @@ class Renderer {
     return grey;
   }
 
-  const SceneSettings& settings_;
+  const StripeSceneSettings& settings_;
   std::mt19937_64 random_;
   std::vector<TruthPoint> truth_;
   std::vector<std::pair<double, double>> gaps_;
@@ -234,9 +234,9 @@ class Renderer {
 
 }  // namespace
 
-SceneSettings scene_settings(SceneKind kind) {
-  SceneSettings settings;
-  if (kind == SceneKind::kClean) return settings;
+StripeSceneSettings stripe_scene_settings(StripeSceneKind kind) {
+  StripeSceneSettings settings;
+  if (kind == StripeSceneKind::kClean) return settings;
   settings.stripe_width = 3;
   settings.modulated = true;
   settings.speckle = 0.15;
@@ -246,14 +246,14 @@ SceneSettings scene_settings(SceneKind kind) {
   settings.blobs = 6;
   settings.ghost = true;
   settings.amplitude = 130;
-  if (kind == SceneKind::kGlare) {
+  if (kind == StripeSceneKind::kGlare) {
     settings.amplitude = 90;
     settings.speckle = 0.30;
     settings.blobs = 14;
     settings.arc = true;
-  } else if (kind == SceneKind::kSaturated) {
+  } else if (kind == StripeSceneKind::kSaturated) {
     settings.amplitude = 420;
-  } else if (kind == SceneKind::kLowContrast) {
+  } else if (kind == StripeSceneKind::kLowContrast) {
     settings.amplitude = 30;
     settings.read_noise = 4;
     settings.blobs = 0;
@@ -262,14 +262,15 @@ SceneSettings scene_settings(SceneKind kind) {
   return settings;
 }
 
-Scene render_scene(const SceneSettings& settings, std::uint64_t seed) {
+StripeScene render_stripe_scene(const StripeSceneSettings& settings, std::uint64_t seed) {
   return Renderer(settings, seed).render();
 }
 
-SceneScore score(const Scene& scene, const std::vector<Centre>& centres, double from_corners) {
+StripeSceneScore score(const StripeScene& scene, const std::vector<Centre>& centres,
+                       double from_corners) {
   const auto& truth = scene.truth;
   const int count = static_cast<int>(truth.size()), reach = static_cast<int>(8 / kStep);
-  SceneScore result;
+  StripeSceneScore result;
   result.centres = centres.size();
   std::vector<char> recalled(truth.size(), 0);
   std::vector<double> errors;

@@ -8,10 +8,10 @@
 
 namespace arcstart {
 
-enum class SceneKind { kClean, kTypical, kGlare, kSaturated, kLowContrast };
+enum class StripeSceneKind { kClean, kTypical, kGlare, kSaturated, kLowContrast };
 
 // What a scene is made of.
-struct SceneSettings {
+struct StripeSceneSettings {
   int width = 1600, height = 1200;  // px
   double amplitude = 150;           // of the stripe; grey values
   double stripe_width = 2.5;        // standard deviation of its profile; px
@@ -24,7 +24,7 @@ struct SceneSettings {
   bool ghost = false;  // 45 to 95 px beside the stripe, 150 to 300 px long, 0.35 of its brightness
   bool arc = false;    // glare with rays, and spatter
 };
-SceneSettings scene_settings(SceneKind kind);
+StripeSceneSettings stripe_scene_settings(StripeSceneKind kind);
 
 // The stripe's middle (the peak of its noiseless profile), every half pixel of its length.
 struct TruthPoint {
@@ -33,14 +33,14 @@ struct TruthPoint {
   double corner;  // distance along u to the nearest corner; px
 };
 
-struct Scene {
+struct StripeScene {
   cv::Mat grey;  // 8 bit
   std::vector<TruthPoint> truth;
 };
-Scene render_scene(const SceneSettings& settings, std::uint64_t seed);
+StripeScene render_stripe_scene(const StripeSceneSettings& settings, std::uint64_t seed);
 
 // What the centres chosen are worth against the truth.
-struct SceneScore {
+struct StripeSceneScore {
   double rms = 0, p95 = 0;  // perpendicular error of the centres that are not false; px
   double recall = 0;        // share of the visible truth with a centre within 3 px
   double wrong = 0;         // share of the centres over 3 px from every visible piece
@@ -50,6 +50,7 @@ struct Centre {
   double u, v;
 };
 // straight_only: centres nearer than this to a corner are left out of rms and p95.
-SceneScore score(const Scene& scene, const std::vector<Centre>& centres, double from_corners = 0);
+StripeSceneScore score(const StripeScene& scene, const std::vector<Centre>& centres,
+                       double from_corners = 0);
 
 }  // namespace arcstart

@@ -200,12 +200,12 @@ TEST_CASE("the fast detector finds the same points as five sepFilter2D") {
     check_same_as_judge(expose(light, 1), sigma, least);
   }
   SECTION("typical and saturated scenes") {
-    SceneSettings settings = scene_settings(SceneKind::kTypical);
+    StripeSceneSettings settings = stripe_scene_settings(StripeSceneKind::kTypical);
     settings.width = 500;
     settings.height = 400;
-    check_same_as_judge(render_scene(settings, 5).grey, sigma, least);
+    check_same_as_judge(render_stripe_scene(settings, 5).grey, sigma, least);
     settings.amplitude = 420;
-    check_same_as_judge(render_scene(settings, 6).grey, sigma, least);
+    check_same_as_judge(render_stripe_scene(settings, 6).grey, sigma, least);
   }
 }
 
@@ -241,15 +241,20 @@ TEST_CASE("no second derivative exceeds the bound that rejects blocks") {
     const cv::Mat window = cv::Mat::ones(2 * bound.reach + 1, 2 * bound.reach + 1, CV_8U);
     cv::erode(smooth, lowest, window);
     cv::dilate(smooth, highest, window);
+    cv::Mat plain_lowest, plain_highest;
+    cv::erode(image, plain_lowest, window);
+    cv::dilate(image, plain_highest, window);
     for (const JudgePoint& p :
          judge_ridge_points(image, kernels, 1e-3, RidgeDetector::margin(kernels))) {
       const double range = highest.at<double>(p.row, p.column) - lowest.at<double>(p.row, p.column);
-      REQUIRE(p.curvature <= bound.per_grey * range + bound.remainder);
-      nearest = std::max(nearest, p.curvature / (bound.per_grey * range + bound.remainder));
+      const double plain = plain_highest.at<std::uint8_t>(p.row, p.column) -
+                           plain_lowest.at<std::uint8_t>(p.row, p.column);
+      REQUIRE(p.curvature <= bound.highest(range, plain));
+      nearest = std::max(nearest, p.curvature / bound.highest(range, plain));
     }
   }
   CHECK(nearest > (sigma > 3 ? 0.85 : sigma > 2 ? 0.65 : 0.25));  // and some come near it
-  CHECK(bound.remainder < 0.1 * bound.per_grey * 255);
+  CHECK(bound.per_grey < (sigma > 2 ? 0.01 : 0.2) * bound.per_smoothed_grey);
 }
 
 TEST_CASE("blocks without a stripe are skipped") {

@@ -151,21 +151,19 @@ TEST_CASE("a profile's width is that of the Gaussian drawn") {
   cv::Mat light = darkness(200, 200);
   const double tu = std::cos(angle), tv = std::sin(angle);
   add_stripe(light, 100 - 200 * tu, 100 - 200 * tv, 100 + 200 * tu, 100 + 200 * tv, 180, width);
-  const cv::Mat grey = expose(light, 0);
-  double sum = 0;
+  std::vector<RidgePoint> points;
+  std::vector<int> chain;
   for (int i = -30; i < 30; ++i) {
-    const RidgePoint p{static_cast<float>(100.3 + i * tu),
-                       static_cast<float>(100.3 * 0 + 100 + i * tv + 0.3 * tv / std::max(tu, 0.1)),
-                       static_cast<float>(-tv),
-                       static_cast<float>(tu),
-                       1,
-                       100,
-                       100};
-    sum += profile_width(view_of(grey), p, 1.3 * width, 0.3);
+    const float sense = i % 2 == 0 ? 1 : -1;  // normals have none
+    points.push_back({static_cast<float>(100 + i * tu), static_cast<float>(100 + i * tv),
+                      static_cast<float>(-sense * tv), static_cast<float>(sense * tu), 1, 0, 0});
+    chain.push_back(i + 30);
   }
-  CHECK(sum / 60 == Approx(width).epsilon(0.08));
-  const RidgePoint nowhere{20, 180, 0, 1, 1, 20, 180};
-  if (angle == 0) CHECK(profile_width(view_of(grey), nowhere, 1.3 * width, 0.3) == 0);
+  std::vector<float> widths(points.size(), -1);
+  measure_widths(view_of(expose(light, 1)), points, chain, 1.3 * width, 1, widths);
+  for (const float measured : widths) REQUIRE(measured == Approx(width).epsilon(0.1));
+  measure_widths(view_of(expose(darkness(200, 200), 1)), points, chain, 1.3 * width, 1, widths);
+  for (const float measured : widths) REQUIRE(measured == 0);
 }
 
 TEST_CASE("segments end at the border, and in white") {
@@ -201,35 +199,35 @@ TEST_CASE("images without a stripe give none, and say so") {
 }
 
 TEST_CASE("the same image gives the same stripe, bit by bit") {
-  SceneSettings settings = scene_settings(SceneKind::kTypical);
+  StripeSceneSettings settings = stripe_scene_settings(StripeSceneKind::kTypical);
   settings.width = 600;
   settings.height = 450;
-  const cv::Mat grey = render_scene(settings, 9).grey;
+  const cv::Mat grey = render_stripe_scene(settings, 9).grey;
   CHECK(same(extract(grey), extract(grey)));
 }
 
 TEST_CASE("rendered scenes: the stripe and little else, accurately") {
-  const auto scene_score = [](SceneKind kind, std::uint64_t seed, double from_corners) {
-    const Scene scene = render_scene(scene_settings(kind), seed);
+  const auto scene_score = [](StripeSceneKind kind, std::uint64_t seed, double from_corners) {
+    const StripeScene scene = render_stripe_scene(stripe_scene_settings(kind), seed);
     return score(scene, chosen(extract(scene.grey)), from_corners);
   };
   const std::uint64_t seed = GENERATE(1, 2);
   INFO("seed " << seed);
   {
-    const SceneScore clean = scene_score(SceneKind::kClean, seed, 20);
+    const StripeSceneScore clean = scene_score(StripeSceneKind::kClean, seed, 20);
     CHECK(clean.rms < 0.03);
     CHECK(clean.recall > 0.99);
     CHECK(clean.wrong == 0);
   }
   {
-    const SceneScore typical = scene_score(SceneKind::kTypical, seed, 0);
+    const StripeSceneScore typical = scene_score(StripeSceneKind::kTypical, seed, 0);
     CHECK(typical.rms < 0.25);
     CHECK(typical.p95 < 0.45);
     CHECK(typical.recall > 0.98);
     CHECK(typical.wrong < 0.005);
   }
   {
-    const SceneScore saturated = scene_score(SceneKind::kSaturated, seed, 0);
+    const StripeSceneScore saturated = scene_score(StripeSceneKind::kSaturated, seed, 0);
     CHECK(saturated.rms < 0.25);
     CHECK(saturated.recall > 0.975);
     CHECK(saturated.wrong < 0.01);
