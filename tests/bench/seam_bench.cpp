@@ -1,5 +1,6 @@
 // bench_seam: the whole pipeline on rendered scans of the simulated cell, every seed told.
 #include <fmt/format.h>
+#include <spdlog/spdlog.h>
 
 #include <CLI/CLI.hpp>
 #include <algorithm>
@@ -91,6 +92,7 @@ int main(int argc, char** argv) {
   options.add_option("--json", json_path, "Where the figures go, flat JSON");
   options.add_option("--seeds", seeds, "Seeds 1 to N, none left out")->capture_default_str();
   CLI11_PARSE(options, argc, argv);
+  spdlog::set_level(spdlog::level::warn);  // the table alone
   nlohmann::json json;
   fmt::print(
       "Tee with a tool lying about, 50 mm/s, 14 frames/s, M = {}, true calibration, 1600 x 1200\n",
