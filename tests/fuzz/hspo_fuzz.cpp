@@ -1,4 +1,5 @@
-// FANUC's position packets: any bytes are decoded or refused with a reason; what is decoded is finite.
+// FANUC's position packets: any bytes are decoded or refused with a reason; what is decoded is
+// finite.
 #include <cmath>
 #include <cstdlib>
 
