@@ -10,7 +10,8 @@ TEST_CASE("a live scan at 2 frames a second and 400 x 300") {
   RunningCell cell("slow_scan",
                    {"cell_simulator.image_width_px: 400", "cell_simulator.image_height_px: 300",
                     "cell_simulator.frame_rate_hz: 2", "sensor_capture.frame_rate_hz: 2",
-                    "cell_simulator.search_speed_mm_s: 7.2", "cell_simulator.seed: 31"});
+                    "cell_simulator.search_speed_mm_s: 7.2", "cell_simulator.seed: 31",
+                    "reconstruction.keep_every: 4"});
   cell.start_all();
   REQUIRE(cell.wait_until_ready(60));
   const auto background = cell.scan(scan_t::BACKGROUND, 60);
