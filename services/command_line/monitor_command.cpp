@@ -116,7 +116,9 @@ int run(const Options& options) {
   // (?s): a channel's name may hold a line feed, and must show all the same.
   bus.subscribe_pattern("(?s).*", Queue::measurements(),
                         [&](const Bus::Bytes& bytes, const std::string& channel) {
-                          traffic.take(channel, bytes, steady_now());
+                          // LCM sends that to itself whenever a process starts.
+                          if (channel != "LCM_SELF_TEST")
+                            traffic.take(channel, bytes, steady_now());
                         });
   traffic.tick(steady_now());
   for (std::int64_t next = steady_now() + kSecond; !is_over();) {
