@@ -36,6 +36,15 @@ double stripe_spacing(const ScanCloud& cloud) {
   return percentile(steps, 0.5);
 }
 
+double stripe_step(const ScanCloud& cloud) {
+  std::vector<double> steps;
+  for (int i = 1; i < cloud.size(); ++i)
+    if (cloud.origins[i].stripe == cloud.origins[i - 1].stripe &&
+        cloud.origins[i].segment == cloud.origins[i - 1].segment)
+      steps.push_back((cloud.points[i] - cloud.points[i - 1]).norm());
+  return percentile(steps, 0.9);
+}
+
 // Median distance to the eighth neighbour over that of a square grid of spacing 1.
 double point_spacing(const ScanCloud& cloud) {
   Eigen::Vector3d low = cloud.points.front(), high = low;
@@ -120,6 +129,7 @@ Sampling measure_sampling(const ScanCloud& cloud) {
   Sampling sampling;
   if (cloud.points.size() < 16) return sampling;
   sampling.spacing = cloud.organised() ? stripe_spacing(cloud) : point_spacing(cloud);
+  if (cloud.organised()) sampling.step = stripe_step(cloud);
   sampling.noise = surface_noise(cloud, 3 * sampling.spacing);
   return sampling;
 }

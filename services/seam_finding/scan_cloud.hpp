@@ -66,6 +66,8 @@ std::optional<Eigen::Vector3d> search_direction(const ScanCloud& cloud);
 struct Sampling {
   double spacing =
       0;  // between stripes while the tool moves, in an unorganised cloud between points; mm
+  double step = 0;   // between points along a stripe, where it is wide (the ninth tenth); 0 without
+                     // stripes; mm
   double noise = 0;  // standard deviation of the points across their surface; mm
 };
 

@@ -56,8 +56,7 @@ void ScanStore::write(const std::string& name, const std::vector<Event>& events)
     std::error_code ignored;
     fs::remove(beside, ignored);
     throw ScanStoreError(
-        fmt::format("{}: cannot be kept: {}: free some space, or give another folder with --state",
-                    path, failure.what()));
+        fmt::format("{}: free some space, or give another folder with --state", failure.what()));
   }
 }
 

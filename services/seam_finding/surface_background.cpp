@@ -8,13 +8,14 @@ namespace {
 
 constexpr double kLeastCell = 4;       // mm
 constexpr double kCellSpacings = 1.5;  // a cell is so many stripe spacings wide
+constexpr double kCellSteps = 1.2;     // and so many steps along a stripe
 constexpr double kLeastSpread =
     0.6;  // of a window across its stripes, in spacings; two stripes give 0.5, three 0.82
 constexpr double kRoughSpacings = 0.75;  // reach of a point where there is no plane
 constexpr std::size_t kCrowd = 512;      // points of a cell that are looked at for the nearest one
 
 double cell_size(const Sampling& sampling) {
-  return std::max(kLeastCell, kCellSpacings * sampling.spacing);
+  return std::max({kLeastCell, kCellSpacings * sampling.spacing, kCellSteps * sampling.step});
 }
 
 }  // namespace
