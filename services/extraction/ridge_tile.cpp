@@ -106,8 +106,10 @@ ARCSTART_INLINE_BODY unsigned strong_lanes(Lanes uu, Lanes uv, Lanes vv, float l
   const Lanes determinant = (uu + limit) * (vv + limit) - uv * uv;
   const Lanes trace = uu + vv + 2 * limit;
   const auto strong = (determinant <= 0.0f) | (trace < 0.0f);
+  std::int32_t lane[kLanes];
+  std::memcpy(lane, &strong, sizeof lane);
   unsigned bits = 0;
-  for (int i = 0; i < kLanes; ++i) bits |= (strong[i] ? 1u : 0u) << i;
+  for (int i = 0; i < kLanes; ++i) bits |= (lane[i] != 0 ? 1u : 0u) << i;
   return bits;
 }
 
@@ -133,11 +135,17 @@ ARCSTART_INLINE_BODY void filter_column(const RidgeTile& tile, const Ring& ring,
       du += (load(p1 + step) + load(p1 - step)) * tile.smooth[k];
       dv += (load(p0 + step) - load(p0 - step)) * tile.first[k];
     }
+    float at_lane[5][kLanes];
+    store(at_lane[0], du);
+    store(at_lane[1], dv);
+    store(at_lane[2], uu);
+    store(at_lane[3], uv);
+    store(at_lane[4], vv);
     for (int i = 0; bits != 0; ++i, bits >>= 1) {
       const int column = tile.column + u + i;
       if ((bits & 1u) == 0 || column < tile.first_column || column > tile.last_column) continue;
-      add_ridge_point({du[i], dv[i], uu[i], uv[i], vv[i]}, tile.least_curvature, column, row,
-                      points);
+      add_ridge_point({at_lane[0][i], at_lane[1][i], at_lane[2][i], at_lane[3][i], at_lane[4][i]},
+                      tile.least_curvature, column, row, points);
     }
   }
 }

@@ -9,12 +9,22 @@ namespace arcstart {
 namespace {
 
 constexpr double kLeastSigma = 1.2, kLargestSigma = 12;  // px, followed
-constexpr double kFirstLooks[] = {2, 6};                 // px, where no scale is known
-constexpr double kFollowing = 0.2;  // share of the difference taken up by each image
-constexpr int kFewestWidths = 100;  // to follow
+constexpr double kFirstLook = 2.5, kSecondLook = 6;      // px, where no scale is known
+constexpr double kLargestOfFirst = 4.5;  // px; a sigma wanted above it the first look cannot judge
+constexpr double kWidestWhite = 4;       // px; nor a stripe with a white top wider than this
+constexpr double kFollowing = 0.2;       // share of the difference taken up by each image
+constexpr double kNearEnough = 0.1;      // share of sigma that makes no difference
 // Standard deviation of a second derivative under white noise is 0.2443 noise / sigma^3 (3 / (16
 // pi), rooted); what starts a segment stands out from it by eight times.
 constexpr double kNoiseCurvature = 8 * 0.2443;
+
+// Width of a stripe along the image that would hold all its white pixels; px.
+double white_width(const GreyImage& image) {
+  std::int64_t white = 0;
+  for (int v = 0; v < image.height; ++v)
+    white += std::count(image.row(v), image.row(v) + image.width, 255);
+  return static_cast<double>(white) / std::max(image.width, image.height);
+}
 
 double median(std::vector<float>& values) {
   if (values.empty()) return 0;
@@ -54,44 +64,39 @@ double StripeExtractor::chosen_strength() const {
   return sum;
 }
 
-double StripeExtractor::median_width() const {
+double StripeExtractor::wanted_sigma() const {
   std::vector<float> widths;
   for (const Branch& branch : selection_.branches)
     if (branch.chosen)
       for (const int i : branch.points)
         if (widths_[i] > 0) widths.push_back(widths_[i]);
-  return static_cast<int>(widths.size()) >= std::min(kFewestWidths, settings_.fewest_centres)
-             ? median(widths)
-             : 0;
+  if (static_cast<int>(widths.size()) < settings_.fewest_centres) return 0;
+  return std::clamp(settings_.sigma_per_width * median(widths), kLeastSigma, kLargestSigma);
 }
 
-// Strength is largest where sigma is the stripe's own width (ridge.hpp): the strongest of a few
-// looks tells roughly, the profile measured there tells the rest.
+// A look at a small sigma tells the stripe's width, unless that is a wide one, of which it sees the
+// sides, or whose white top has nothing to see for it. In doubt a look at a large sigma follows; of
+// both the stronger is right, for strength is largest where sigma is the stripe's own width
+// (ridge.hpp).
 void StripeExtractor::find_scale(const GreyImage& image) {
-  double strongest = 0, best = kFirstLooks[0];
-  for (const double sigma : kFirstLooks) {
-    look_at(image, sigma);
-    if (const double strength = chosen_strength(); strength > strongest) {
-      strongest = strength;
-      best = sigma;
-    }
+  look_at(image, kFirstLook);
+  const double first = wanted_sigma();
+  if (first == 0 || first > kLargestOfFirst || white_width(image) > kWidestWhite) {
+    const double strength = chosen_strength();
+    look_at(image, kSecondLook);
+    if (strength > chosen_strength()) look_at(image, kFirstLook);
   }
-  if (used_sigma_ != best) look_at(image, best);
   for (int i = 0; i < 3; ++i) {
-    const double width = median_width();
-    if (width == 0) return;
-    const double wanted = std::clamp(settings_.sigma_per_width * width, kLeastSigma, kLargestSigma);
-    if (std::abs(wanted - used_sigma_) < 0.05 * used_sigma_) break;
+    const double wanted = wanted_sigma();
+    if (wanted == 0) return;
+    if (std::abs(wanted - used_sigma_) < kNearEnough * used_sigma_) break;
     look_at(image, wanted);
   }
-  if (median_width() > 0) sigma_ = used_sigma_;
+  if (wanted_sigma() > 0) sigma_ = used_sigma_;
 }
 
 void StripeExtractor::follow_scale() {
-  const double width = median_width();
-  if (width == 0) return;
-  const double wanted = std::clamp(settings_.sigma_per_width * width, kLeastSigma, kLargestSigma);
-  sigma_ += kFollowing * (wanted - sigma_);
+  if (const double wanted = wanted_sigma(); wanted > 0) sigma_ += kFollowing * (wanted - sigma_);
 }
 
 // The law knows white noise alone; speckle and the surface's grain usually scatter the centres

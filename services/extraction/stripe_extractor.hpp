@@ -49,7 +49,7 @@ class StripeExtractor {
   void find_scale(const GreyImage& image);
   void follow_scale();
   double chosen_strength() const;
-  double median_width() const;
+  double wanted_sigma() const;  // from the widths seen; px, 0 where too few
   double scatter_factor(double sigma) const;
   Stripe describe(const GreyImage& image) const;
 

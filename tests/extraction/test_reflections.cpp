@@ -95,7 +95,7 @@ TEST_CASE(
   Scene scene;
   const int base = scene.add(0, 200, 400, 100, 10);
   const int upright = scene.add(402, 101, 450, 125, 8);
-  const int ghost = scene.add(403, 99, 650, -20 + 60, 3);
+  const int ghost = scene.add(403, 99, 650, 40, 4);
   const auto share = scene.reflected();
   CHECK(share[base] == 0);
   CHECK(share[upright] == 0);
@@ -119,7 +119,7 @@ TEST_CASE("along rows it is the same") {
   Scene scene;
   const int base = scene.add(200, 0, 100, 400, 10);
   const int upright = scene.add(101, 402, 125, 450, 8);
-  const int ghost = scene.add(99, 403, 40, 650, 3);
+  const int ghost = scene.add(99, 403, 40, 650, 4);
   const auto share = scene.reflected(true);
   CHECK(share[base] == 0);
   CHECK(share[upright] == 0);
