@@ -60,7 +60,7 @@ Recording::Recording(const std::vector<std::string>& paths, const std::string& s
     if (log.damage().empty()) continue;
     damaged_ = true;
     warnings_.push_back(
-        fmt::format("{}: damaged, replayed up to there: {}", printable(log.path()), log.damage()));
+        fmt::format("{}: damaged, whole up to there: {}", printable(log.path()), log.damage()));
   }
   choose_instances(sensor, robot);
   for (std::size_t log = 0; log < logs_.size(); ++log)

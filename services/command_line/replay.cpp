@@ -234,7 +234,9 @@ ReplayResult replay_recordings(const std::vector<std::string>& paths,
 std::string source_channels(const std::vector<std::string>& paths, const ReplayOptions& options) {
   const Recording recording(paths, options.sensor, options.robot);
   recording.require_channels();
-  if (recording.is_damaged()) throw RecordingError(recording.warnings().front());
+  if (recording.is_damaged())
+    throw RecordingError(recording.warnings().front() +
+                         "; lcm-logplayer may crash on it, 'arcstart replay' plays what is whole");
   const std::string& sensor = recording.sensor();
   const Stage first = first_stage(recording);
   std::string channels = sensor + "_SCAN|" + sensor + "_CALIBRATION|";
