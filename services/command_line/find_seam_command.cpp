@@ -10,7 +10,7 @@
 #include "services/command_line/cloud_picture.hpp"
 #include "services/command_line/point_cloud_file.hpp"
 #include "services/command_line/seam_json.hpp"
-#include "services/seam_finding/find_seam.hpp"
+#include "services/seam_finding/agreed_seam.hpp"
 #include "services/seam_finding/scan_answer.hpp"
 
 namespace arcstart {
@@ -155,7 +155,7 @@ int run(const Options& options) try {
   } else if (options.remove_plane && plane) {
     background = std::make_unique<PlaneBackground>(cloud, *plane);
   }
-  const SeamResult result = find_seam(cloud, *background, settings, kSeed);
+  const SeamResult result = find_agreed_seam(cloud, *background, settings, kSeed);
 
   tell(result);
   if (options.json) {

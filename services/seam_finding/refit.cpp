@@ -11,10 +11,12 @@ namespace {
 
 constexpr int kPasses = 2;
 constexpr int kLeastPoints = 20;
-constexpr double kTukey = 4.685;  // standard deviations
+constexpr double kTukey = 4.685;               // standard deviations
+constexpr double kMedianToDeviation = 1.4826;  // of normal noise
 // The stripe's centre is drawn aside so near the other plate; mm.
 constexpr double kBendWidth = 1.2;
-constexpr double kOverhang = 3;  // beyond the seam's ends; mm
+constexpr double kLeastSpread = 3;  // of a plate's points within their plane, over their noise
+constexpr double kOverhang = 3;     // beyond the seam's ends; mm
 
 std::vector<int> beside(const ScanCloud& cloud, const Joint& joint, int plate, const Refit& refit) {
   const double bend = std::max(kBendWidth, 2 * refit.tolerance);
@@ -31,11 +33,22 @@ std::vector<int> beside(const ScanCloud& cloud, const Joint& joint, int plate, c
   return points;
 }
 
+// Of the points from the plane, as their median distance tells it; mm. A plate may be rougher than
+// the cloud is where it is smoothest.
+double spread_about(const std::vector<Eigen::Vector3d>& points, const Plane& plane) {
+  std::vector<double> distances;
+  for (const auto& point : points) distances.push_back(std::abs(plane.signed_distance(point)));
+  const auto middle = distances.begin() + static_cast<std::ptrdiff_t>(distances.size() / 2);
+  std::nth_element(distances.begin(), middle, distances.end());
+  return kMedianToDeviation * *middle;
+}
+
 // Least squares in which a point counts the less the farther off it lies, and beyond a limit not at
 // all (Tukey's weights). The limit narrows from pass to pass, so that what agrees within the noise
 // prevails over what was drawn aside: the stripe's reflection from the other plate shifts its
 // centre by a tenth of a millimetre over wide parts of a plate.
-Plane robust_plane(const std::vector<Eigen::Vector3d>& points, Plane plane, double noise) {
+Plane robust_plane(const std::vector<Eigen::Vector3d>& points, Plane plane, double cloud_noise) {
+  const double noise = std::max(cloud_noise, spread_about(points, plane));
   for (const double limit : {4.0, 4.0, 2.0, 2.0, 1.0, 1.0, 0.6, 0.6, 0.6, 0.6}) {
     const double reach = limit * kTukey * noise;
     PlaneSums sums(points.front());
@@ -45,7 +58,7 @@ Plane robust_plane(const std::vector<Eigen::Vector3d>& points, Plane plane, doub
     }
     if (sums.weight() < kLeastPoints / 2) return plane;
     const auto fit = sums.fit();
-    if (!(fit.spread[0] > reach)) return plane;
+    if (!(fit.spread[0] > kLeastSpread * noise)) return plane;
     plane = fit.plane.normal.dot(plane.normal) < 0 ? fit.plane.flipped() : fit.plane;
   }
   return plane;
@@ -59,11 +72,11 @@ void refit_joint(const ScanCloud& cloud, Joint& joint, const Refit& refit,
     std::array<Plane, 2> planes = {joint.plates[0].plane, joint.plates[1].plane};
     for (int plate = 0; plate < 2; ++plate) {
       auto chosen = beside(cloud, joint, plate, refit);
-      if (static_cast<int>(chosen.size()) < kLeastPoints)
-        continue;  // the face's own plane is better
       if (refit.neighbours > 0)
         chosen =
             without_outliers(cloud, chosen, refit.neighbours, refit.deviations, search.spacing);
+      if (static_cast<int>(chosen.size()) < kLeastPoints)
+        continue;  // the face's own plane is better
       std::vector<Eigen::Vector3d> points;
       for (const int i : chosen) points.push_back(cloud.points[i]);
       planes[plate] = robust_plane(points, planes[plate], refit.noise);

@@ -1,0 +1,17 @@
+// The seam of a cloud without stripes, where nothing but repetition tells a joint from chance.
+#pragma once
+
+#include <cstdint>
+
+#include "services/seam_finding/find_seam.hpp"
+
+namespace arcstart {
+
+// Planes can be laid through rough or curved surfaces in many ways, and some of them meet like the
+// plates of a joint. A real joint is found again when the planes are drawn anew. Finds the seam
+// nine times with other random choices, and gives the answer on which two thirds of them agree;
+// refuses, with all the seams listed, where there is none. The same seed gives the same answer.
+SeamResult find_agreed_seam(const ScanCloud& scan, const Background& background,
+                            const SeamFindingSettings& settings, std::uint64_t seed);
+
+}  // namespace arcstart

@@ -1,0 +1,190 @@
+#include "tests/seam_finding/synthetic_scan.hpp"
+
+#include <cmath>
+#include <limits>
+#include <optional>
+#include <random>
+
+namespace arcstart::synthetic {
+namespace {
+
+constexpr double kDegree = M_PI / 180;
+constexpr double kInfinity = std::numeric_limits<double>::infinity();
+
+struct Random {
+  std::mt19937_64 engine;
+  double between(double low, double high) {
+    return std::uniform_real_distribution<double>(low, high)(engine);
+  }
+  double normal(double deviation) {
+    return std::normal_distribution<double>(0, 1)(engine) * deviation;
+  }
+};
+
+double table_height(const Scene& scene, double x, double y) {
+  return scene.table_waves * 0.5 * (std::sin(x / 17 + 0.6) + std::sin(y / 23 + x / 61));
+}
+
+// Way along the unit ray to the box's surface from outside, infinite where it misses.
+double meet(const Box& box, const Eigen::Vector3d& origin, const Eigen::Vector3d& direction) {
+  const Eigen::Isometry3d T_box_base = box.T_base_box.inverse();
+  const Eigen::Vector3d o = T_box_base * origin, d = T_box_base.linear() * direction;
+  double enter = -kInfinity, leave = kInfinity;
+  for (int axis = 0; axis < 3; ++axis) {
+    double a = (-box.half_size[axis] - o[axis]) / d[axis],
+           b = (box.half_size[axis] - o[axis]) / d[axis];
+    if (a > b) std::swap(a, b);
+    enter = std::max(enter, a);
+    leave = std::min(leave, b);
+  }
+  return enter <= leave && enter > 1e-6 ? enter : kInfinity;
+}
+
+double meet_table(const Scene& scene, const Eigen::Vector3d& origin,
+                  const Eigen::Vector3d& direction) {
+  if (!scene.table || direction.z() > -0.05) return kInfinity;
+  double way = -origin.z() / direction.z();
+  for (int i = 0; i < 6; ++i) {
+    const Eigen::Vector3d p = origin + way * direction;
+    way += (table_height(scene, p.x(), p.y()) - p.z()) / direction.z();
+  }
+  return way;
+}
+
+struct Lit {
+  Eigen::Vector3d point;
+  Truth truth;
+};
+std::optional<Lit> lit_and_seen(const Scene& scene, const Eigen::Vector3d& laser,
+                                const Eigen::Vector3d& direction, const Eigen::Vector3d& camera) {
+  double way = meet_table(scene, laser, direction);
+  Truth truth = Truth::kTable;
+  for (const Box& box : scene.boxes)
+    if (const double to_box = meet(box, laser, direction); to_box < way)
+      way = to_box, truth = Truth::kBox;
+  if (!std::isfinite(way)) return std::nullopt;
+  const Eigen::Vector3d point = laser + way * direction;
+  const Eigen::Vector3d back = point - camera;
+  for (const Box& box : scene.boxes)
+    if (meet(box, camera, back.normalized()) < back.norm() - 1e-4) return std::nullopt;
+  return Lit{point, truth};
+}
+
+Box standing_box(const Eigen::Isometry3d& frame, const Eigen::Vector3d& corner,
+                 const Eigen::Vector3d& size) {
+  Box box;
+  box.half_size = size / 2;
+  box.T_base_box = frame * Eigen::Translation3d(corner + size / 2);
+  return box;
+}
+
+Eigen::Isometry3d placed(double x, double y, double yaw) {
+  return Eigen::Translation3d(x, y, 0) *
+         Eigen::Isometry3d(Eigen::AngleAxisd(yaw, Eigen::Vector3d::UnitZ()));
+}
+
+}  // namespace
+
+Scene make_scene(const SceneChoice& choice, std::uint64_t seed) {
+  Random random{std::mt19937_64(seed * 7919 + 17)};
+  Scene scene;
+  const double length = random.between(80, 120), width = random.between(88, 132),
+               height = random.between(36, 54);
+  const double base = random.between(8, 12), thickness = random.between(6.5, 9.5);
+  Eigen::Isometry3d work =
+      placed(random.between(-12, 12), random.between(-12, 12), random.between(-15, 15) * kDegree);
+  work = work * Eigen::AngleAxisd(random.between(-3, 3) * kDegree, Eigen::Vector3d::UnitX()) *
+         Eigen::AngleAxisd(random.between(-3, 3) * kDegree, Eigen::Vector3d::UnitY());
+  work.translation().z() += 2;  // what is tilted would dip into the table
+  if (choice.workpiece) {
+    const double before = choice.base_overhang;
+    scene.boxes.push_back(
+        standing_box(work, {-before, -width / 2, 0}, {length + 2 * before, width, base}));
+    if (!choice.lone_plate) {
+      // The upright's face toward +y stands on the seam; it leans by turning about it.
+      const Eigen::Isometry3d foot =
+          work * Eigen::Translation3d(0, 0, base) *
+          Eigen::Isometry3d(
+              Eigen::AngleAxisd((90 - choice.tilt_deg) * kDegree * -1, Eigen::Vector3d::UnitX()));
+      scene.boxes.push_back(standing_box(foot, {0, -thickness, 0}, {length, thickness, height}));
+      const double first = std::max(0.0, -before), last = length + std::min(0.0, before);
+      scene.start = work * Eigen::Vector3d(first, 0, base);
+      scene.end = work * Eigen::Vector3d(last, 0, base);
+      scene.normals[0] = work.linear() * Eigen::Vector3d::UnitZ();
+      scene.normals[1] = foot.linear() * Eigen::Vector3d::UnitY();
+    }
+  }
+  if (choice.tool) {  // handle and head of a hammer
+    const auto lying =
+        placed(random.between(0, 70), random.between(62, 75), random.between(-40, 40) * kDegree);
+    scene.boxes.push_back(standing_box(lying, {0, 0, 0}, {80, 14, 14}));
+    scene.boxes.push_back(standing_box(lying, {80, -20, 0}, {20, 54, 22}));
+  }
+  if (choice.big_box)
+    scene.boxes.push_back(standing_box(
+        placed(random.between(-20, 0), random.between(66, 72), random.between(-8, 8) * kDegree),
+        {0, 0, 0}, {random.between(120, 150), 70, random.between(30, 45)}));
+  return scene;
+}
+
+SyntheticScan make_scan(const Scene& scene, const ScanChoice& choice, std::uint64_t seed) {
+  Random random{std::mt19937_64(seed * 104729 + 5)};
+  const Eigen::Vector3d search = Eigen::Vector3d::UnitX();
+  const double lean = choice.lean_deg * kDegree;
+  const Eigen::Vector3d axis(0, -std::sin(lean),
+                             -std::cos(lean));  // of the camera, downward over the open side
+  const Eigen::Vector3d lateral = axis.cross(search).normalized();
+  const Eigen::Vector3d laser_axis = Eigen::AngleAxisd(22 * kDegree, lateral) * axis;
+  constexpr double kStandOff = 300;
+  constexpr int kHalf = 800;
+  const double step = 0.125 / kStandOff;
+
+  SyntheticScan scan;
+  ScanCloud& cloud = scan.cloud;
+  const double phase = random.between(0, choice.pitch);
+  for (double x = choice.from + phase; x < choice.to; x += choice.pitch) {
+    const Eigen::Vector3d aim = x * search + Eigen::Vector3d(0, 10, 15);
+    const Eigen::Vector3d camera = aim - kStandOff * axis, laser = aim - kStandOff * laser_axis;
+    const Eigen::Vector3d shift(random.normal(choice.stripe_noise),
+                                random.normal(choice.stripe_noise),
+                                random.normal(choice.stripe_noise));
+    std::vector<std::vector<Lit>> segments;
+    Eigen::Vector3d last = Eigen::Vector3d::Zero();
+    bool runs_on = false;
+    for (int i = -kHalf; i < kHalf; ++i) {
+      const Eigen::Vector3d ray = (laser_axis + i * step * lateral).normalized();
+      const auto lit = lit_and_seen(scene, laser, ray, camera);
+      if (!lit || std::abs((lit->point - camera).normalized().dot(lateral)) > 800.0 / 2400) {
+        runs_on = false;
+        continue;
+      }
+      if (!runs_on || (lit->point - last).norm() > 1.5) segments.emplace_back();
+      segments.back().push_back(*lit);
+      last = lit->point;
+      runs_on = true;
+    }
+    int number = 0;
+    for (const auto& segment : segments) {
+      if (segment.size() < 4) continue;
+      for (std::size_t i = 0; i < segment.size(); ++i) {
+        const bool end = i == 0 || i + 1 == segment.size();
+        if (!end && i % static_cast<std::size_t>(choice.thin) != 0) continue;
+        const Eigen::Vector3d sight = (segment[i].point - camera).normalized();
+        const bool outlier = random.between(0, 1) < choice.outliers;
+        const double off = outlier ? random.between(-20, 20) : random.normal(choice.noise);
+        cloud.points.push_back(segment[i].point + off * sight + shift);
+        scan.truth.push_back(outlier ? Truth::kOutlier : segment[i].truth);
+        cloud.origins.push_back({static_cast<int>(cloud.stripes.size()), number, end,
+                                 static_cast<float>(choice.noise)});
+      }
+      ++number;
+    }
+    const bool any = !cloud.origins.empty() &&
+                     cloud.origins.back().stripe == static_cast<int>(cloud.stripes.size());
+    end_stripe(cloud, any ? ScanStripe::Seen::kSeen : ScanStripe::Seen::kEmpty, camera + shift,
+               x * search + shift);
+  }
+  return scan;
+}
+
+}  // namespace arcstart::synthetic

@@ -1,0 +1,59 @@
+// Scans of a scene of boxes on an uneven table, in closed form: a fan of laser rays in each
+// stripe's plane, the first box it meets, and whether the camera sees that point. No image, no code
+// of the product beside its cloud.
+#pragma once
+
+#include <Eigen/Geometry>
+#include <cstdint>
+#include <string>
+#include <vector>
+
+#include "services/seam_finding/scan_cloud.hpp"
+
+namespace arcstart::synthetic {
+
+// A box with its own frame; its faces are at +-half_size.
+struct Box {
+  Eigen::Isometry3d T_base_box = Eigen::Isometry3d::Identity();
+  Eigen::Vector3d half_size = Eigen::Vector3d::Ones();
+};
+
+struct Scene {
+  std::vector<Box> boxes;
+  double table_waves = 0.4;  // the table's height goes up and down by so much; mm
+  bool table = true;
+  // Truth where there is a Tee.
+  Eigen::Vector3d start{0, 0, 0}, end{0, 0, 0};
+  Eigen::Vector3d normals[2] = {{0, 0, 1},
+                                {0, 1, 0}};  // of base plate and upright, out of the metal
+};
+
+struct SceneChoice {
+  bool workpiece = true;
+  bool tool = false;     // left lying on the table beside the workpiece
+  bool big_box = false;  // larger than the workpiece, beside it
+  double base_overhang =
+      0;  // the base plate begins so much earlier (negative: later) than the upright; mm
+  double tilt_deg = 90;     // between upright and base
+  bool lone_plate = false;  // no upright
+};
+Scene make_scene(const SceneChoice& choice, std::uint64_t seed);
+
+struct ScanChoice {
+  double pitch = 3.6;           // tool's way between stripes; mm
+  int thin = 15;                // M: every M-th centre of a segment, and its last
+  double noise = 0.1;           // of each point along its line of sight; mm
+  double stripe_noise = 0.02;   // of the tool's position, common to a stripe; mm, each axis
+  double from = -35, to = 150;  // of the tool along the search; mm
+  double lean_deg = 38;         // of the optical axis over the open side
+  double outliers = 0.002;      // share of points that lie anywhere up to 20 mm off
+};
+// What a point truly lies on.
+enum class Truth : char { kTable, kBox, kOutlier };
+struct SyntheticScan {
+  ScanCloud cloud;
+  std::vector<Truth> truth;  // one a point
+};
+SyntheticScan make_scan(const Scene& scene, const ScanChoice& choice, std::uint64_t seed);
+
+}  // namespace arcstart::synthetic
