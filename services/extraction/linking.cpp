@@ -6,8 +6,8 @@
 namespace arcstart {
 namespace {
 
-constexpr int kReach =
-    3;  // px: over a pixel or two in which rounding has lost the line, no farther
+// px: over a pixel or two in which rounding has lost the line, no farther.
+constexpr int kReach = RidgeDetector::kLineReach;
 constexpr float kLeastCosine = 0.8f;  // of the directions of neighbours: 37 degrees
 constexpr float kTurnCost = 3.0f;     // px per unit of 1 - cosine
 

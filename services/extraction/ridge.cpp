@@ -6,6 +6,12 @@
 #include "services/extraction/ridge_tile.hpp"
 
 namespace arcstart {
+namespace {
+
+static_assert(kTileWidth == BlockRejection::kWidth);
+
+}  // namespace
+
 double strength_factor(double sigma, double exponent) { return std::pow(sigma, exponent); }
 
 int RidgeDetector::margin(const GaussianKernels& kernels) {
@@ -14,57 +20,98 @@ int RidgeDetector::margin(const GaussianKernels& kernels) {
 
 void RidgeDetector::detect(const GreyImage& image, const GaussianKernels& kernels,
                            double least_curvature, std::vector<RidgePoint>& points) {
+  detect_lines(image, kernels, least_curvature, least_curvature, points);
+}
+
+void RidgeDetector::detect_lines(const GreyImage& image, const GaussianKernels& kernels,
+                                 double least_curvature, double strong_curvature,
+                                 std::vector<RidgePoint>& points) {
   points.clear();
   active_share_ = 0;
-  const int border = margin(kernels);
   if (std::min(image.width, image.height) <= 2 * kernels.half_width + 1) return;
-  rejection_.mark(image, kernels, least_curvature);
-  active_share_ = rejection_.active_share();
-
-  const std::vector<float> smooth(kernels.smooth.begin(), kernels.smooth.end());
-  const std::vector<float> first(kernels.first.begin(), kernels.first.end());
-  const std::vector<float> second(kernels.second.begin(), kernels.second.end());
+  rejection_.mark(image, kernels, strong_curvature);
+  smooth_.assign(kernels.smooth.begin(), kernels.smooth.end());
+  first_.assign(kernels.first.begin(), kernels.first.end());
+  second_.assign(kernels.second.begin(), kernels.second.end());
   work_.resize(ridge_tile_work(kernels.half_width));
   found_.clear();
 
-  constexpr int kBlocksAcross = kTileWidth / BlockRejection::kWidth;
-  for (int column = 0; column < rejection_.columns(); column += kBlocksAcross) {
-    const auto active = [&](int row) {
-      for (int c = column; c < std::min(column + kBlocksAcross, rejection_.columns()); ++c)
-        if (rejection_.active(c, row)) return true;
-      return false;
-    };
-    for (int row = 0; row < rejection_.rows();) {
-      if (!active(row)) {
-        ++row;
-        continue;
-      }
-      int end =
-          row +
-          1;  // one tile for as many active blocks as touch, so that its halo is filtered once
-      while (end < rejection_.rows() && active(end)) ++end;
-      const int first_row = std::max(row * BlockRejection::kHeight, border);
-      const int end_row = std::min(end * BlockRejection::kHeight, image.height - border);
-      if (first_row < end_row)
-        find_ridge_points(
-            {image, smooth.data(), first.data(), second.data(), kernels.half_width,
-             static_cast<float>(least_curvature), column * BlockRejection::kWidth, first_row,
-             end_row - first_row, border, image.width - 1 - border, work_.data()},
-            found_);
-      row = end;
-    }
+  const int columns = rejection_.columns(), rows = rejection_.rows();
+  wanted_.clear();
+  is_wanted_.assign(static_cast<std::size_t>(columns) * rows, 0);
+  for (int column = 0; column < columns; ++column)
+    for (int row = 0; row < rows; ++row)
+      if (rejection_.active(column, row)) want(column, row);
+  std::size_t looked_at = 0;
+  while (!wanted_.empty()) {
+    looked_at += wanted_.size();
+    const std::size_t before = found_.size();
+    look_at_wanted(image, kernels, static_cast<float>(least_curvature));
+    wanted_.clear();
+    if (least_curvature < strong_curvature) want_what_lines_lead_to(before, image);
+    std::sort(wanted_.begin(), wanted_.end());
   }
+  active_share_ = static_cast<double>(looked_at) / static_cast<double>(is_wanted_.size());
   collect_in_raster_order(image.height, points);
 }
 
-// Strips come from left to right and each from top to bottom: a stable sort by row alone puts them
-// in raster order.
+void RidgeDetector::want(int column, int row) {
+  const int block = column * rejection_.rows() + row;
+  if (is_wanted_[block] != 0) return;
+  is_wanted_[block] = 1;
+  wanted_.push_back(block);
+}
+
+void RidgeDetector::look_at_wanted(const GreyImage& image, const GaussianKernels& kernels,
+                                   float least_curvature) {
+  const int border = margin(kernels), rows = rejection_.rows();
+  for (std::size_t i = 0; i < wanted_.size();) {
+    // One tile for as many blocks as touch down the image, so that its halo is filtered once.
+    std::size_t end = i + 1;
+    while (end < wanted_.size() && wanted_[end] == wanted_[end - 1] + 1 && wanted_[end] % rows != 0)
+      ++end;
+    const int column = wanted_[i] / rows, row = wanted_[i] % rows;
+    const int first_row = std::max(row * BlockRejection::kHeight, border);
+    const int end_row = std::min((row + static_cast<int>(end - i)) * BlockRejection::kHeight,
+                                 image.height - border);
+    if (first_row < end_row)
+      find_ridge_points({image, smooth_.data(), first_.data(), second_.data(), kernels.half_width,
+                         least_curvature, column * BlockRejection::kWidth, first_row,
+                         end_row - first_row, border, image.width - 1 - border, work_.data()},
+                        found_);
+    i = end;
+  }
+}
+
+void RidgeDetector::want_what_lines_lead_to(std::size_t first_new, const GreyImage& image) {
+  for (std::size_t i = first_new; i < found_.size(); ++i) {
+    const RidgePoint& p = found_[i];
+    const auto block_of = [](int at, int size, int block) {
+      return std::clamp(at, 0, size - 1) / block;
+    };
+    const int left = block_of(p.column - kLineReach, image.width, BlockRejection::kWidth),
+              right = block_of(p.column + kLineReach, image.width, BlockRejection::kWidth);
+    const int top = block_of(p.row - kLineReach, image.height, BlockRejection::kHeight),
+              bottom = block_of(p.row + kLineReach, image.height, BlockRejection::kHeight);
+    for (const int column : {left, right})
+      for (const int row : {top, bottom}) want(column, row);
+  }
+}
+
+// Found block by block: sorted by row in one go, then within each row, where most are in order.
 void RidgeDetector::collect_in_raster_order(int height, std::vector<RidgePoint>& points) {
   row_begin_.assign(height + 1, 0);
   for (const RidgePoint& point : found_) ++row_begin_[point.row + 1];
   for (int row = 0; row < height; ++row) row_begin_[row + 1] += row_begin_[row];
   points.resize(found_.size());
-  for (const RidgePoint& point : found_) points[row_begin_[point.row]++] = point;
+  for (const RidgePoint& point : found_) {
+    int at = row_begin_[point.row]++;
+    const auto goes_before = [&] {
+      return at > 0 && points[at - 1].row == point.row && points[at - 1].column > point.column;
+    };
+    for (; goes_before(); --at) points[at] = points[at - 1];
+    points[at] = point;
+  }
 }
 
 }  // namespace arcstart

@@ -1,5 +1,4 @@
-// Steger's ridge points: where the grey values across a bright line have their maximum (Eq. 2 and
-// 3).
+// Steger's ridge points in an image (Eq. 2 and 3).
 #pragma once
 
 #include <cstdint>
@@ -8,15 +7,9 @@
 #include "services/extraction/block_rejection.hpp"
 #include "services/extraction/gaussian_kernels.hpp"
 #include "services/extraction/grey_image.hpp"
+#include "services/extraction/ridge_point.hpp"
 
 namespace arcstart {
-
-struct RidgePoint {
-  float u, v;                // px, pixel centres at integers
-  float normal_u, normal_v;  // unit, across the line, of either sense
-  float curvature;  // size of the second derivative across the line, > 0; grey values / px^2
-  std::int32_t column, row;  // the pixel that holds it: |u - column| <= 1/2, |v - row| <= 1/2
-};
 
 // Factor from curvature to the ridge strength N of Eq. 3, sigma^exponent. A Gaussian stripe of
 // amplitude A and width w has curvature A w / (w^2 + sigma^2)^(3/2); times sigma^(3/2) that is
@@ -26,6 +19,9 @@ double strength_factor(double sigma, double exponent);
 
 class RidgeDetector {
  public:
+  // px, in columns and in rows: pixels of neighbouring points of a line lie no farther apart.
+  static constexpr int kLineReach = 3;
+
   // Every pixel whose Hessian (greys smoothed with the kernels, mirrored at the border) has a
   // negative eigenvalue of at least least_curvature in size, no smaller than the other's, and whose
   // extremum along the eigenvector lies within half a pixel in u and in v. In raster order of the
@@ -35,6 +31,12 @@ class RidgeDetector {
   void detect(const GreyImage& image, const GaussianKernels& kernels, double least_curvature,
               std::vector<RidgePoint>& points);
 
+  // Of those points all that hang together with one of at least strong_curvature, neighbours being
+  // kLineReach apart at most, and some others: what hysteresis needs. Blocks without a strong point
+  // are looked at only where a line leads into them.
+  void detect_lines(const GreyImage& image, const GaussianKernels& kernels, double least_curvature,
+                    double strong_curvature, std::vector<RidgePoint>& points);
+
   // At two sigma the mirrored half shifts a line by less than 0.02 px per px of sigma and unit of
   // slope.
   static int margin(const GaussianKernels& kernels);
@@ -42,11 +44,17 @@ class RidgeDetector {
   double active_share() const { return active_share_; }  // of the last image's blocks
 
  private:
+  void want(int column, int row);
+  void look_at_wanted(const GreyImage& image, const GaussianKernels& kernels,
+                      float least_curvature);
+  void want_what_lines_lead_to(std::size_t first_new, const GreyImage& image);
   void collect_in_raster_order(int height, std::vector<RidgePoint>& points);
 
   BlockRejection rejection_;
-  std::vector<float> work_;
-  std::vector<RidgePoint> found_;  // strip by strip
+  std::vector<float> smooth_, first_, second_, work_;
+  std::vector<int> wanted_;  // blocks to be looked at, column by column
+  std::vector<std::uint8_t> is_wanted_;
+  std::vector<RidgePoint> found_;  // block by block
   std::vector<int> row_begin_;
   double active_share_ = 0;
 };

@@ -1,174 +1,281 @@
 #include "services/extraction/ridge_tile.hpp"
 
+#include <algorithm>
 #include <cmath>
+#include <cstdint>
 #include <cstring>
 
 #include "services/extraction/instruction_sets.hpp"
 
+#if defined(__x86_64__) && defined(__GNUC__)
+#include <immintrin.h>
+#endif
+
 namespace arcstart {
 namespace {
 
-// Eight columns at once. Where the processor has narrower registers, the compiler splits them.
-typedef float Lanes __attribute__((vector_size(32)));
-constexpr int kLanes = 8;
-constexpr int kChunk = 2 * kLanes;
-static_assert(kTileWidth % kChunk == 0);
+template <int kFloats>
+struct Register {
+  typedef float Lanes __attribute__((vector_size(4 * kFloats)));
+  typedef std::int32_t Mask __attribute__((vector_size(4 * kFloats)));
+};
+template <int kFloats>
+using Lanes = typename Register<kFloats>::Lanes;
 
-ARCSTART_INLINE_BODY Lanes load(const float* from) {
-  Lanes lanes;
+constexpr int kRows = 4;          // output rows at once: each row in reach is loaded once for them
+constexpr int kRowsOfChunk = 32;  // output rows for which the filtered rows are kept
+
+template <int kFloats>
+ARCSTART_INLINE_BODY Lanes<kFloats> load(const float* from) {
+  Lanes<kFloats> lanes;
   std::memcpy(&lanes, from, sizeof lanes);
   return lanes;
 }
-ARCSTART_INLINE_BODY void store(float* to, Lanes lanes) { std::memcpy(to, &lanes, sizeof lanes); }
+template <class Vector>
+ARCSTART_INLINE_BODY void store(float* to, Vector lanes) {
+  std::memcpy(to, &lanes, sizeof lanes);
+}
 
-// Smoothed grey value's derivatives at one pixel.
-struct Derivatives {
-  float u, v, uu, uv, vv;
+// Keeps a value in its register: used twice, it would be loaded twice.
+template <int kFloats, class Vector>
+ARCSTART_INLINE_BODY void keep([[maybe_unused]] Vector& lanes) {
+#if defined(__x86_64__) && defined(__GNUC__)
+  if constexpr (kFloats == 16)
+    asm("" : "+v"(lanes));  // any of 32 registers
+  else
+    asm("" : "+x"(lanes));
+#endif
+}
+
+int up_to(int size, int multiple) { return (size + multiple - 1) / multiple * multiple; }
+
+// Where a tile's values are kept, each row at a whole cache line: grey values, and those filtered
+// along u by smooth, first and second; from half_width above the chunk's first output row on.
+struct Planes {
+  int grey_stride, rows;
+  float *grey, *smooth, *first, *second;
+
+  Planes(int half_width, float* work)
+      : grey_stride(up_to(kTileWidth + 2 * half_width, 8)),
+        rows(up_to(kRowsOfChunk + 2 * half_width, kRows) + kRows) {
+    constexpr std::uintptr_t kLine = 64;
+    const auto address = reinterpret_cast<std::uintptr_t>(work);
+    grey = work + (kLine - address % kLine) % kLine / sizeof(float);
+    smooth = grey + up_to(rows * grey_stride, 16);
+    first = smooth + rows * kTileWidth;
+    second = first + rows * kTileWidth;
+  }
+  std::size_t size() const {
+    return static_cast<std::size_t>(rows) * (grey_stride + 3 * kTileWidth) + 32;
+  }
 };
 
-// The pixel's ridge point, if it has one. The eigenvalue of largest absolute value must be the
-// negative one; t is the extremum's distance along its eigenvector n (Steger 1998, Eq. 22).
-void add_ridge_point(const Derivatives& d, float least_curvature, int column, int row,
-                     std::vector<RidgePoint>& points) {
-  const float half_trace = 0.5f * (d.uu + d.vv), half_difference = 0.5f * (d.uu - d.vv);
-  if (half_trace > 0) return;
-  const float root = std::sqrt(half_difference * half_difference + d.uv * d.uv);
-  const float eigenvalue = half_trace - root;
-  if (eigenvalue > -least_curvature) return;
-  // (uu - eigenvalue, uv) or (uv, vv - eigenvalue), crossed: take the longer for its accuracy.
-  float nu, nv;
-  if (half_difference <= 0) {
-    nu = root - half_difference;
-    nv = -d.uv;
-  } else {
-    nu = -d.uv;
-    nv = root + half_difference;
+// Eight grey values as floats; eight more may be read. The compiler takes a plain loop apart.
+template <int kFloats>
+ARCSTART_INLINE_BODY void widen(const std::uint8_t* from, float* to) {
+#if defined(__x86_64__) && defined(__GNUC__)
+  if constexpr (kFloats >= 8) {
+    typedef char Bytes __attribute__((vector_size(16)));
+    Bytes bytes;
+    std::memcpy(&bytes, from, sizeof bytes);
+    store(to, __builtin_convertvector(__builtin_ia32_pmovzxbd256(bytes), Lanes<8>));
+    return;
   }
-  const float length = std::sqrt(nu * nu + nv * nv);
-  if (!(length > 0)) {  // curved alike in all directions: any normal will do
-    nu = 0;
-    nv = 1;
-  } else {
-    nu /= length;
-    nv /= length;
-  }
-  const float t = -(d.u * nu + d.v * nv) / eigenvalue;
-  const float du = t * nu, dv = t * nv;
-  if (!(std::abs(du) <= 0.5f && std::abs(dv) <= 0.5f)) return;
-  points.push_back({static_cast<float>(column) + du, static_cast<float>(row) + dv, nu, nv,
-                    -eigenvalue, column, row});
+#endif
+  for (int i = 0; i < 8; ++i) to[i] = from[i];
 }
 
-// The rows of grey values in reach of an output row, filtered by smooth, first and second. A ring
-// of 2 half_width + 1 rows, each kept twice, so that the rows in reach always lie one after the
-// other.
-struct Ring {
-  int rows;
-  float* smooth;
-  float* first;
-  float* second;
+// Grey values of an image row from half_width left of the tile on, mirrored at the border.
+template <int kFloats>
+ARCSTART_INLINE_BODY void load_greys(const RidgeTile& tile, int v, int grey_stride, float* greys) {
+  const std::uint8_t* row = tile.image.row(reflect_101(v, tile.image.height));
+  const int begin = tile.column - tile.half_width, size = kTileWidth + 2 * tile.half_width;
+  // Rows lie too far apart for the processor to see what comes next.
+  __builtin_prefetch(row + begin + 12 * tile.image.stride);
+  if (begin >= 0 && begin + grey_stride + 8 <= tile.image.width)
+    for (int k = 0; k < grey_stride; k += 8) widen<kFloats>(row + begin + k, greys + k);
+  else
+    for (int k = 0; k < size; ++k) greys[k] = row[reflect_101(begin + k, tile.image.width)];
+}
+
+// Two rows along u. Their loads are unaligned, for which eight floats at a time are best anywhere.
+template <int kFloats>
+ARCSTART_INLINE_BODY void filter_rows(const RidgeTile& tile, const Planes& planes, int row) {
+  constexpr int kWidth = std::min(kFloats, 8), kAcross = kTileWidth / kWidth, kCount = 2 * kAcross;
+  using Values = Lanes<kWidth>;
+  const float* centre = planes.grey + row * planes.grey_stride + tile.half_width;
+  const auto place = [&](int i) {
+    return centre + i / kAcross * planes.grey_stride + i % kAcross * kWidth;
+  };
+  Values smooth[kCount], first[kCount], second[kCount];
+  for (int i = 0; i < kCount; ++i) {
+    const Values grey = load<kWidth>(place(i));
+    smooth[i] = grey * tile.smooth[0];
+    second[i] = grey * tile.second[0];
+    first[i] = Values{};
+  }
+  for (int k = 1; k <= tile.half_width; ++k) {
+    const float g0 = tile.smooth[k], g1 = tile.first[k], g2 = tile.second[k];
+    for (int i = 0; i < kCount; ++i) {
+      Values right = load<kWidth>(place(i) + k), left = load<kWidth>(place(i) - k);
+      keep<kFloats>(right);
+      keep<kFloats>(left);
+      const Values sum = right + left;
+      smooth[i] += sum * g0;
+      first[i] += (right - left) * g1;
+      second[i] += sum * g2;
+    }
+  }
+  for (int i = 0; i < kCount; ++i) {
+    const int at = row * kTileWidth + i * kWidth;
+    store(planes.smooth + at, smooth[i]);
+    store(planes.first + at, first[i]);
+    store(planes.second + at, second[i]);
+  }
+}
+
+// Four output rows of a plane filtered along v with even or odd taps. at: the first one's place.
+template <bool kOdd, int kFloats>
+ARCSTART_INLINE_BODY void filter_columns(const float* at, const float* taps, int half_width,
+                                         Lanes<kFloats> out[kRows]) {
+  Lanes<kFloats> below[kRows], above[kRows];  // the rows k below and above each output row
+  for (int i = 0; i < kRows; ++i) {
+    below[i] = above[i] = load<kFloats>(at + i * kTileWidth);
+    out[i] = kOdd ? Lanes<kFloats>{} : below[i] * taps[0];
+  }
+#pragma GCC unroll 4
+  for (int k = 1; k <= half_width; ++k) {
+    for (int i = 0; i + 1 < kRows; ++i) below[i] = below[i + 1];
+    for (int i = kRows - 1; i > 0; --i) above[i] = above[i - 1];
+    below[kRows - 1] = load<kFloats>(at + (kRows - 1 + k) * kTileWidth);
+    above[0] = load<kFloats>(at - k * kTileWidth);
+    const float tap = taps[k];
+    for (int i = 0; i < kRows; ++i)
+      out[i] += (kOdd ? below[i] - above[i] : below[i] + above[i]) * tap;
+  }
+}
+
+// Whether any lane's smaller eigenvalue is -limit or less: the determinant of (Hessian + limit) is
+// negative, or its trace is. No square root, and no comparison but of signs.
+template <int kFloats>
+ARCSTART_INLINE_BODY bool any_strong(const Lanes<kFloats> uu[kRows], const Lanes<kFloats> uv[kRows],
+                                     const Lanes<kFloats> vv[kRows], float limit) {
+  typename Register<kFloats>::Mask signs{};
+  for (int i = 0; i < kRows; ++i) {
+    const Lanes<kFloats> a = uu[i] + limit, b = vv[i] + limit;
+    const Lanes<kFloats> determinant = a * b - uv[i] * uv[i], trace = a + b;
+    typename Register<kFloats>::Mask bits;
+    std::memcpy(&bits, &determinant, sizeof bits);
+    signs |= bits;
+    std::memcpy(&bits, &trace, sizeof bits);
+    signs |= bits;
+  }
+  std::uint64_t words[kFloats / 2], all = 0;
+  std::memcpy(words, &signs, sizeof signs);
+  for (const std::uint64_t word : words) all |= word;
+  return (all & 0x80000000'80000000u) != 0;
+}
+
+// Of the pixels of four rows, a register wide: derivatives of the smoothed grey values, and what
+// they say.
+template <int kFloats>
+struct Extrema {
+  static constexpr int kCount = kRows * kFloats;
+  float u[kCount], v[kCount], uu[kCount], uv[kCount], vv[kCount];
+  float du[kCount], dv[kCount];  // from the pixel's centre to the extremum across the line; px
+  float nu[kCount], nv[kCount];  // across the line, of any length
+  float curvature[kCount];
+  std::int32_t is_ridge[kCount];
 };
 
-ARCSTART_INLINE_BODY void filter_row(const RidgeTile& tile, const float* line, int slot,
-                                     const Ring& ring) {
-  for (int u = 0; u < kTileWidth; u += kChunk) {
-    const float* centre = line + tile.half_width + u;
-    Lanes smooth[2], first[2], second[2];
-    for (int c = 0; c < 2; ++c) {
-      const Lanes grey = load(centre + c * kLanes);
-      smooth[c] = grey * tile.smooth[0];
-      second[c] = grey * tile.second[0];
-      first[c] = grey - grey;
-    }
-    for (int k = 1; k <= tile.half_width; ++k) {
-      const float g0 = tile.smooth[k], g1 = tile.first[k], g2 = tile.second[k];
-      for (int c = 0; c < 2; ++c) {
-        const Lanes right = load(centre + c * kLanes + k), left = load(centre + c * kLanes - k);
-        const Lanes sum = right + left;
-        smooth[c] += sum * g0;
-        first[c] += (right - left) * g1;
-        second[c] += sum * g2;
-      }
-    }
-    for (const int row : {slot, slot + ring.rows})
-      for (int c = 0; c < 2; ++c) {
-        const int at = row * kTileWidth + u + c * kLanes;
-        store(ring.smooth + at, smooth[c]);
-        store(ring.first + at, first[c]);
-        store(ring.second + at, second[c]);
-      }
+// The eigenvalue of largest absolute value must be the negative one; t is the extremum's distance
+// along its eigenvector n (Steger 1998, Eq. 22).
+template <int kFloats>
+ARCSTART_INLINE_BODY void find_extrema(float least_curvature, Extrema<kFloats>& e) {
+  for (int i = 0; i < Extrema<kFloats>::kCount; ++i) {
+    const float half_trace = 0.5f * (e.uu[i] + e.vv[i]),
+                half_difference = 0.5f * (e.uu[i] - e.vv[i]);
+    const float root = std::sqrt(half_difference * half_difference + e.uv[i] * e.uv[i]);
+    const float eigenvalue = half_trace - root;
+    // (uu - eigenvalue, uv) or (uv, vv - eigenvalue), crossed: the longer for its accuracy.
+    const bool down = half_difference <= 0;
+    const float longer = root + std::abs(half_difference);
+    float nu = down ? longer : -e.uv[i];
+    float nv = down ? -e.uv[i] : longer;
+    // Curved alike in all directions: any normal will do.
+    nv = longer > 0 ? nv : 1;
+    const float t = -(e.u[i] * nu + e.v[i] * nv) / (eigenvalue * (nu * nu + nv * nv));
+    const float du = t * nu, dv = t * nv;
+    e.is_ridge[i] = (half_trace <= 0) & (eigenvalue <= -least_curvature) & (std::abs(du) <= 0.5f) &
+                    (std::abs(dv) <= 0.5f);
+    e.du[i] = du;
+    e.dv[i] = dv;
+    e.nu[i] = nu;
+    e.nv[i] = nv;
+    e.curvature[i] = -eigenvalue;
   }
 }
 
-// Bit i set where lane i's smaller eigenvalue is -limit or less: the determinant of (Hessian +
-// limit) is negative, or its trace is. No square root.
-ARCSTART_INLINE_BODY unsigned strong_lanes(Lanes uu, Lanes uv, Lanes vv, float limit) {
-  const Lanes determinant = (uu + limit) * (vv + limit) - uv * uv;
-  const Lanes trace = uu + vv + 2 * limit;
-  const auto strong = (determinant <= 0.0f) | (trace < 0.0f);
-  std::int32_t lane[kLanes];
-  std::memcpy(lane, &strong, sizeof lane);
-  unsigned bits = 0;
-  for (int i = 0; i < kLanes; ++i) bits |= (lane[i] != 0 ? 1u : 0u) << i;
-  return bits;
+// rows: of the four, that belong to the tile.
+template <int kFloats>
+void add_points(const RidgeTile& tile, const Extrema<kFloats>& extrema, int column, int row,
+                int rows, std::vector<RidgePoint>& points) {
+  for (int at = 0; at < rows * kFloats; ++at) {
+    if (extrema.is_ridge[at] == 0) continue;
+    const int u = column + at % kFloats, v = row + at / kFloats;
+    if (u < tile.first_column || u > tile.last_column) continue;
+    const float nu = extrema.nu[at], nv = extrema.nv[at];
+    const float length = std::sqrt(nu * nu + nv * nv);
+    points.push_back({static_cast<float>(u) + extrema.du[at],
+                      static_cast<float>(v) + extrema.dv[at], nu / length, nv / length,
+                      extrema.curvature[at], u, v});
+  }
 }
 
-// One output row: the ring's rows from window on are those in reach.
-ARCSTART_INLINE_BODY void filter_column(const RidgeTile& tile, const Ring& ring, int window,
-                                        int row, std::vector<RidgePoint>& points) {
+template <int kFloats>
+ARCSTART_INLINE_BODY void find_in_chunk(const RidgeTile& tile, const Planes& planes, int first_row,
+                                        int rows, Extrema<kFloats>& extrema,
+                                        std::vector<RidgePoint>& points) {
   const int half_width = tile.half_width;
-  for (int u = 0; u < kTileWidth; u += kLanes) {
-    const int at = (window + half_width) * kTileWidth + u;
-    const float *p0 = ring.smooth + at, *p1 = ring.first + at, *p2 = ring.second + at;
-    Lanes uu = load(p2) * tile.smooth[0], vv = load(p0) * tile.second[0], uv = vv - vv;
-    for (int k = 1; k <= half_width; ++k) {
-      const int step = k * kTileWidth;
-      uu += (load(p2 + step) + load(p2 - step)) * tile.smooth[k];
-      uv += (load(p1 + step) - load(p1 - step)) * tile.first[k];
-      vv += (load(p0 + step) + load(p0 - step)) * tile.second[k];
+  for (int row = 0; row < rows; row += kRows)
+    for (int c = 0; c < kTileWidth; c += kFloats) {
+      const int at = (row + half_width) * kTileWidth + c;
+      Lanes<kFloats> u[kRows], v[kRows], uu[kRows], uv[kRows], vv[kRows];
+      filter_columns<false, kFloats>(planes.second + at, tile.smooth, half_width, uu);
+      filter_columns<true, kFloats>(planes.first + at, tile.first, half_width, uv);
+      filter_columns<false, kFloats>(planes.smooth + at, tile.second, half_width, vv);
+      if (!any_strong<kFloats>(uu, uv, vv, tile.least_curvature)) continue;
+      filter_columns<false, kFloats>(planes.first + at, tile.smooth, half_width, u);
+      filter_columns<true, kFloats>(planes.smooth + at, tile.first, half_width, v);
+      std::memcpy(extrema.u, u, sizeof u);
+      std::memcpy(extrema.v, v, sizeof v);
+      std::memcpy(extrema.uu, uu, sizeof uu);
+      std::memcpy(extrema.uv, uv, sizeof uv);
+      std::memcpy(extrema.vv, vv, sizeof vv);
+      find_extrema(tile.least_curvature, extrema);
+      add_points<kFloats>(tile, extrema, tile.column + c, first_row + row,
+                          std::min(kRows, rows - row), points);
     }
-    unsigned bits = strong_lanes(uu, uv, vv, tile.least_curvature);
-    if (bits == 0) continue;
-    Lanes du = load(p1) * tile.smooth[0], dv = du - du;
-    for (int k = 1; k <= half_width; ++k) {
-      const int step = k * kTileWidth;
-      du += (load(p1 + step) + load(p1 - step)) * tile.smooth[k];
-      dv += (load(p0 + step) - load(p0 - step)) * tile.first[k];
-    }
-    float at_lane[5][kLanes];
-    store(at_lane[0], du);
-    store(at_lane[1], dv);
-    store(at_lane[2], uu);
-    store(at_lane[3], uv);
-    store(at_lane[4], vv);
-    for (int i = 0; bits != 0; ++i, bits >>= 1) {
-      const int column = tile.column + u + i;
-      if ((bits & 1u) == 0 || column < tile.first_column || column > tile.last_column) continue;
-      add_ridge_point({at_lane[0][i], at_lane[1][i], at_lane[2][i], at_lane[3][i], at_lane[4][i]},
-                      tile.least_curvature, column, row, points);
-    }
-  }
 }
 
+template <int kFloats>
 ARCSTART_INLINE_BODY void find_ridge_points_in_body(const RidgeTile& tile,
                                                     std::vector<RidgePoint>& points) {
-  const int half_width = tile.half_width, ring_rows = 2 * half_width + 1;
-  const int plane = 2 * ring_rows * kTileWidth;
-  const Ring ring{ring_rows, tile.work, tile.work + plane, tile.work + 2 * plane};
-  float* line = tile.work + 3 * plane;
-  const GreyImage& image = tile.image;
-  const int line_size = kTileWidth + 2 * half_width, begin = tile.column - half_width;
-  const bool inside = begin >= 0 && begin + line_size <= image.width;
-
-  for (int i = 0; i < tile.rows + 2 * half_width; ++i) {
-    const std::uint8_t* greys = image.row(reflect_101(tile.row + i - half_width, image.height));
-    if (inside)
-      for (int k = 0; k < line_size; ++k) line[k] = greys[begin + k];
-    else
-      for (int k = 0; k < line_size; ++k) line[k] = greys[reflect_101(begin + k, image.width)];
-    filter_row(tile, line, i % ring_rows, ring);
-    if (i >= 2 * half_width)
-      filter_column(tile, ring, (i + 1) % ring_rows, tile.row + i - 2 * half_width, points);
+  const int half_width = tile.half_width;
+  const Planes planes(half_width, tile.work);
+  Extrema<kFloats> extrema;
+  for (int done = 0; done < tile.rows; done += kRowsOfChunk) {
+    const int rows = std::min(kRowsOfChunk, tile.rows - done);
+    if (done > 0)  // the last rows of the chunk before are in reach of this one's
+      for (float* values : {planes.smooth, planes.first, planes.second})
+        std::memmove(values, values + kRowsOfChunk * kTileWidth,
+                     sizeof(float) * 2 * half_width * kTileWidth);
+    const int begin = done > 0 ? 2 * half_width : 0, end = rows + 2 * half_width;
+    for (int i = begin; i < end; ++i)
+      load_greys<kFloats>(tile, tile.row + done + i - half_width, planes.grey_stride,
+                          planes.grey + i * planes.grey_stride);
+    for (int i = begin; i < end; i += 2) filter_rows<kFloats>(tile, planes, i);
+    find_in_chunk<kFloats>(tile, planes, tile.row + done, rows, extrema, points);
   }
 }
 ARCSTART_FOR_EACH_INSTRUCTION_SET(find_ridge_points_in,
@@ -177,9 +284,7 @@ ARCSTART_FOR_EACH_INSTRUCTION_SET(find_ridge_points_in,
 
 }  // namespace
 
-std::size_t ridge_tile_work(int half_width) {
-  return static_cast<std::size_t>(6 * (2 * half_width + 1) + 1) * kTileWidth + 2 * half_width;
-}
+std::size_t ridge_tile_work(int half_width) { return Planes(half_width, nullptr).size(); }
 
 void find_ridge_points(const RidgeTile& tile, std::vector<RidgePoint>& points) {
   find_ridge_points_in(tile, points);

@@ -3,14 +3,13 @@
 
 #include <vector>
 
-#include "services/extraction/gaussian_kernels.hpp"
 #include "services/extraction/grey_image.hpp"
-#include "services/extraction/ridge.hpp"
+#include "services/extraction/ridge_point.hpp"
 
 namespace arcstart {
 
-// Width of a tile: the rows in reach, thrice filtered, stay in the first-level cache.
-constexpr int kTileWidth = 32;
+// Of a tile, px: the rows in reach, thrice filtered, stay in the first-level cache.
+constexpr int kTileWidth = 16;
 
 struct RidgeTile {
   const GreyImage& image;
@@ -19,9 +18,9 @@ struct RidgeTile {
   const float* second;
   int half_width;
   float least_curvature;
-  int column, row, rows;          // the tile: 32 columns from column on, rows from row on
+  int column, row, rows;          // the tile: 16 columns from column on, rows from row on
   int first_column, last_column;  // pixels outside them are left out
-  float* work;                    // ridge_tile_work(half_width) floats
+  float* work;                    // ridge_tile_work(half_width) floats, finite
 };
 
 std::size_t ridge_tile_work(int half_width);

@@ -41,7 +41,7 @@ void StripeExtractor::look_at(const GreyImage& image, double sigma) {
   const double strong =
       std::max(settings_.least_strength / strength_factor(sigma, settings_.strength_exponent),
                kNoiseCurvature * noise_ / (sigma * sigma * sigma));
-  detector_.detect(image, kernels_, settings_.weakest_share * strong, points_);
+  detector_.detect_lines(image, kernels_, settings_.weakest_share * strong, strong, points_);
   linker_.link(points_, {strong, settings_.fewest_centres}, chains_);
   widths_.assign(points_.size(), 0);
   for (const Chain& chain : chains_) measure_widths(image, points_, chain, sigma, noise_, widths_);

@@ -5,25 +5,14 @@
 #include <map>
 #include <opencv2/imgproc.hpp>
 
+#include "tests/extraction/plain_ridge.hpp"
+
 namespace arcstart {
-namespace {
-
-cv::Mat both_sides(const std::vector<double>& taps, bool odd) {
-  const int half = static_cast<int>(taps.size()) - 1;
-  cv::Mat kernel(1, 2 * half + 1, CV_64F);
-  for (int k = 0; k <= half; ++k) {
-    kernel.at<double>(half + k) = taps[k];
-    kernel.at<double>(half - k) = odd ? -taps[k] : taps[k];
-  }
-  return kernel;
-}
-
-}  // namespace
-
 std::vector<JudgePoint> judge_ridge_points(const cv::Mat& grey, const GaussianKernels& kernels,
                                            double least_curvature, int margin) {
-  const cv::Mat g0 = both_sides(kernels.smooth, false), g1 = both_sides(kernels.first, true),
-                g2 = both_sides(kernels.second, false);
+  const cv::Mat g0 = both_sides(kernels.smooth, false, CV_64F),
+                g1 = both_sides(kernels.first, true, CV_64F),
+                g2 = both_sides(kernels.second, false, CV_64F);
   cv::Mat ru, rv, ruu, ruv, rvv;
   const auto filter = [&](cv::Mat& response, const cv::Mat& along_u, const cv::Mat& along_v) {
     cv::sepFilter2D(grey, response, CV_64F, along_u, along_v, {-1, -1}, 0, cv::BORDER_REFLECT_101);

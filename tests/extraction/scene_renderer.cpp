@@ -214,11 +214,14 @@ class Renderer {
     for (int i = 0; i < 25; ++i) streak(light, uniform(10, 70), uniform(60, 250), uniform(0.8, 2));
   }
 
-  // Light to grey values: shot noise of 39 electrons a grey value, read noise, 8 bits.
+  // Light to grey values: shot noise, read noise, 8 bits.
   cv::Mat expose(const cv::Mat& light) {
     cv::Mat level = cv::max(light + 10, 0), shot;
-    cv::sqrt(level / 39, shot);
-    level += shot.mul(white_noise()) + settings_.read_noise * white_noise();
+    if (settings_.electrons_per_grey > 0) {
+      cv::sqrt(level / settings_.electrons_per_grey, shot);
+      level += shot.mul(white_noise());
+    }
+    level += settings_.read_noise * white_noise();
     cv::Mat grey;
     level.convertTo(grey, CV_8U);
     return grey;
@@ -233,6 +236,22 @@ class Renderer {
 };
 
 }  // namespace
+
+const char* name_of(StripeSceneKind kind) {
+  switch (kind) {
+    case StripeSceneKind::kClean:
+      return "clean";
+    case StripeSceneKind::kTypical:
+      return "typical";
+    case StripeSceneKind::kGlare:
+      return "glare";
+    case StripeSceneKind::kSaturated:
+      return "saturated";
+    case StripeSceneKind::kLowContrast:
+      return "low_contrast";
+  }
+  return "";
+}
 
 StripeSceneSettings stripe_scene_settings(StripeSceneKind kind) {
   StripeSceneSettings settings;
@@ -264,57 +283,6 @@ StripeSceneSettings stripe_scene_settings(StripeSceneKind kind) {
 
 StripeScene render_stripe_scene(const StripeSceneSettings& settings, std::uint64_t seed) {
   return Renderer(settings, seed).render();
-}
-
-StripeSceneScore score(const StripeScene& scene, const std::vector<Centre>& centres,
-                       double from_corners) {
-  const auto& truth = scene.truth;
-  const int count = static_cast<int>(truth.size()), reach = static_cast<int>(8 / kStep);
-  StripeSceneScore result;
-  result.centres = centres.size();
-  std::vector<char> recalled(truth.size(), 0);
-  std::vector<double> errors;
-  std::size_t wrong = 0;
-  for (const Centre& centre : centres) {
-    const int middle = std::clamp(static_cast<int>(centre.u / kStep), 0, count - 1);
-    double nearest = 1e9, to_visible = 1e9, corner = 0;
-    for (int i = std::max(0, middle - reach); i <= std::min(count - 1, middle + reach); ++i) {
-      const double distance = std::hypot(centre.u - truth[i].u, centre.v - truth[i].v);
-      if (distance <= 3) recalled[i] = 1;
-      if (truth[i].visible) to_visible = std::min(to_visible, distance);
-    }
-    if (to_visible > 3) {
-      ++wrong;
-      continue;
-    }
-    for (int i = std::max(0, middle - reach); i < std::min(count - 1, middle + reach); ++i) {
-      const double du = truth[i + 1].u - truth[i].u, dv = truth[i + 1].v - truth[i].v;
-      const double cu = centre.u - truth[i].u, cv = centre.v - truth[i].v;
-      const double t = std::clamp((cu * du + cv * dv) / (du * du + dv * dv), 0.0, 1.0);
-      const double distance = std::hypot(cu - t * du, cv - t * dv);
-      if (distance < nearest) {
-        nearest = distance;
-        corner = truth[i].corner;
-      }
-    }
-    if (corner >= from_corners) errors.push_back(nearest);
-  }
-  double sum = 0;
-  for (const double error : errors) sum += error * error;
-  std::sort(errors.begin(), errors.end());
-  if (!errors.empty()) {
-    result.rms = std::sqrt(sum / errors.size());
-    result.p95 = errors[std::min(errors.size() - 1, errors.size() * 95 / 100)];
-  }
-  std::size_t visible = 0, found = 0;
-  for (std::size_t i = 0; i < truth.size(); ++i)
-    if (truth[i].visible && truth[i].v >= 0 && truth[i].v < scene.grey.rows) {
-      ++visible;
-      found += recalled[i];
-    }
-  if (visible > 0) result.recall = static_cast<double>(found) / visible;
-  if (!centres.empty()) result.wrong = static_cast<double>(wrong) / centres.size();
-  return result;
 }
 
 }  // namespace arcstart

@@ -9,18 +9,23 @@
 namespace arcstart {
 
 enum class StripeSceneKind { kClean, kTypical, kGlare, kSaturated, kLowContrast };
+constexpr StripeSceneKind kAllStripeScenes[] = {
+    StripeSceneKind::kClean, StripeSceneKind::kTypical, StripeSceneKind::kGlare,
+    StripeSceneKind::kSaturated, StripeSceneKind::kLowContrast};
+const char* name_of(StripeSceneKind kind);
 
 // What a scene is made of.
 struct StripeSceneSettings {
   int width = 1600, height = 1200;  // px
   double amplitude = 150;           // of the stripe; grey values
   double stripe_width = 2.5;        // standard deviation of its profile; px
-  bool modulated = false;     // amplitude x 1 +- 0.35 +- 0.15, width +- 0.9 px along the stripe
-  double speckle = 0;         // contrast; grain of about 3.3 px
-  double read_noise = 1.5;    // grey values
-  int gaps = 0;               // of 16 to 66 px
-  bool surroundings = false;  // halo, texture, gradient, scratches
-  int blobs = 0;              // of sigma 3 to 15 by 3 to 11 px, 60 to 260 grey values
+  bool modulated = false;   // amplitude x 1 +- 0.35 +- 0.15, width +- 0.9 px along the stripe
+  double speckle = 0;       // contrast; grain of about 3.3 px
+  double read_noise = 1.5;  // grey values
+  double electrons_per_grey = 39;  // of which shot noise follows; 0: none
+  int gaps = 0;                    // of 16 to 66 px
+  bool surroundings = false;       // halo, texture, gradient, scratches
+  int blobs = 0;                   // of sigma 3 to 15 by 3 to 11 px, 60 to 260 grey values
   bool ghost = false;  // 45 to 95 px beside the stripe, 150 to 300 px long, 0.35 of its brightness
   bool arc = false;    // glare with rays, and spatter
 };
@@ -38,19 +43,5 @@ struct StripeScene {
   std::vector<TruthPoint> truth;
 };
 StripeScene render_stripe_scene(const StripeSceneSettings& settings, std::uint64_t seed);
-
-// What the centres chosen are worth against the truth.
-struct StripeSceneScore {
-  double rms = 0, p95 = 0;  // perpendicular error of the centres that are not false; px
-  double recall = 0;        // share of the visible truth with a centre within 3 px
-  double wrong = 0;         // share of the centres over 3 px from every visible piece
-  std::size_t centres = 0;
-};
-struct Centre {
-  double u, v;
-};
-// straight_only: centres nearer than this to a corner are left out of rms and p95.
-StripeSceneScore score(const StripeScene& scene, const std::vector<Centre>& centres,
-                       double from_corners = 0);
 
 }  // namespace arcstart

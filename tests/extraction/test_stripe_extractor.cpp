@@ -5,6 +5,7 @@
 #include "services/extraction/stripe_extractor.hpp"
 #include "services/extraction/stripe_quality.hpp"
 #include "tests/extraction/scene_renderer.hpp"
+#include "tests/extraction/scene_score.hpp"
 #include "tests/extraction/stripe_image.hpp"
 
 using namespace arcstart;
@@ -215,21 +216,21 @@ TEST_CASE("rendered scenes: the stripe and little else, accurately") {
   INFO("seed " << seed);
   {
     const StripeSceneScore clean = scene_score(StripeSceneKind::kClean, seed, 20);
-    CHECK(clean.rms < 0.03);
-    CHECK(clean.recall > 0.99);
+    CHECK(clean.rms() < 0.03);
+    CHECK(clean.recall() > 0.99);
     CHECK(clean.wrong == 0);
   }
   {
     const StripeSceneScore typical = scene_score(StripeSceneKind::kTypical, seed, 0);
-    CHECK(typical.rms < 0.25);
-    CHECK(typical.p95 < 0.45);
-    CHECK(typical.recall > 0.98);
-    CHECK(typical.wrong < 0.005);
+    CHECK(typical.rms() < 0.25);
+    CHECK(typical.p95() < 0.45);
+    CHECK(typical.recall() > 0.98);
+    CHECK(typical.false_share() < 0.005);
   }
   {
     const StripeSceneScore saturated = scene_score(StripeSceneKind::kSaturated, seed, 0);
-    CHECK(saturated.rms < 0.25);
-    CHECK(saturated.recall > 0.975);
-    CHECK(saturated.wrong < 0.01);
+    CHECK(saturated.rms() < 0.25);
+    CHECK(saturated.recall() > 0.975);
+    CHECK(saturated.false_share() < 0.01);
   }
 }

@@ -1,0 +1,22 @@
+// Parts of bench_extraction. Each prints its table on standard output and adds its figures.
+#pragma once
+
+#include <nlohmann/json.hpp>
+
+namespace arcstart {
+
+// Rendered scenes with exact truth, seeds 1 to `seeds` of each: the extractor as the service runs
+// it, beside the plain ridge detector and the usual one-centre-a-column methods.
+void bench_accuracy(int seeds, nlohmann::json& json);
+
+// Straight parts under white noise alone, beside the law of centre_deviation.
+void bench_white_noise(int seeds, nlohmann::json& json);
+
+// The fast ridge detector's points beside those of the plain form in double precision.
+void bench_identity(int seeds, nlohmann::json& json);
+
+// Time of this thread for a frame of 1600 x 1200, all methods by turns in one process, the least of
+// `rounds`.
+void bench_speed(int rounds, nlohmann::json& json);
+
+}  // namespace arcstart

@@ -1,0 +1,173 @@
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cstring>
+#include <ctime>
+#include <functional>
+#include <opencv2/imgproc.hpp>
+
+#include "services/extraction/stripe_extractor.hpp"
+#include "tests/bench/extraction_bench.hpp"
+#include "tests/extraction/column_methods.hpp"
+#include "tests/extraction/counted_allocations.hpp"
+#include "tests/extraction/plain_ridge.hpp"
+#include "tests/extraction/scene_renderer.hpp"
+#include "tests/extraction/stripe_image.hpp"
+
+namespace arcstart {
+namespace {
+
+constexpr double kSigma = 2.5, kStrength = 1.5;
+constexpr int kSeeds = 4;  // images of a scene
+
+// Of this thread: what other programs do beside it does not count.
+double cpu_ms() {
+  timespec time;
+  clock_gettime(CLOCK_THREAD_CPUTIME_ID, &time);
+  return 1e3 * static_cast<double>(time.tv_sec) + 1e-6 * static_cast<double>(time.tv_nsec);
+}
+
+struct Method {
+  const char* name;
+  std::function<void(const cv::Mat&)> run;
+};
+
+// Of one method on one image.
+struct Times {
+  std::vector<double> ms;
+  double least() const { return *std::min_element(ms.begin(), ms.end()); }
+  double tenth() {
+    std::sort(ms.begin(), ms.end());
+    return ms[ms.size() / 10];
+  }
+};
+
+// The whole image at least once through the registers.
+std::uint64_t read_once(const cv::Mat& grey) {
+  std::uint64_t sum = 0;
+  const std::size_t words = grey.total() / 8;
+  for (std::size_t i = 0; i < words; ++i) {
+    std::uint64_t eight;
+    std::memcpy(&eight, grey.data + 8 * i, 8);
+    sum ^= eight;
+  }
+  return sum;
+}
+
+class Row {
+ public:
+  explicit Row(std::string name) : name_(std::move(name)) {}
+  std::vector<cv::Mat> images;
+  const std::string& name() const { return name_; }
+
+ private:
+  std::string name_;
+};
+
+std::vector<Row> rows_of_images() {
+  std::vector<Row> rows;
+  for (const StripeSceneKind kind : kAllStripeScenes) {
+    rows.emplace_back(name_of(kind));
+    for (int seed = 1; seed <= kSeeds; ++seed)
+      rows.back().images.push_back(
+          render_stripe_scene(stripe_scene_settings(kind), static_cast<std::uint64_t>(seed)).grey);
+  }
+  rows.emplace_back("worst");  // every block is active
+  rows.back().images.push_back(expose(darkness(1600, 1200, 128), 40));
+  return rows;
+}
+
+}  // namespace
+
+void bench_speed(int rounds, nlohmann::json& json) {
+  const GaussianKernels kernels = gaussian_kernels(kSigma);
+  const double least = kStrength / strength_factor(kSigma, 1.5);
+  ExtractionSettings at_sigma;
+  at_sigma.sigma_px = kSigma;
+  at_sigma.least_strength = kStrength;
+  PlainRidgeDetector plain;
+  RidgeDetector fast;
+  StripeExtractor selecting(at_sigma), service{ExtractionSettings{}};
+  ColumnMethods columns;
+  std::vector<RidgePoint> points;
+  std::vector<Centre> centres;
+  Stripe stripe;
+  volatile std::uint64_t seen = 0;  // so that the reading is not left out
+  const std::vector<Method> methods{
+      {"read", [&](const cv::Mat& grey) { seen = read_once(grey); }},
+      {"plain", [&](const cv::Mat& grey) { plain.detect(grey, kernels, least, points); }},
+      {"ridge", [&](const cv::Mat& grey) { fast.detect(view_of(grey), kernels, least, points); }},
+      {"with_selection", [&](const cv::Mat& grey) { stripe = selecting.extract(view_of(grey)); }},
+      {"centroid", [&](const cv::Mat& grey) { columns.centroid(grey, kSigma, centres); }},
+      {"gaussian_fit", [&](const cv::Mat& grey) { columns.gaussian_fit(grey, kSigma, centres); }},
+      {"fir", [&](const cv::Mat& grey) { columns.finite_impulse(grey, kSigma, centres); }}};
+
+  fmt::print(
+      "Time, ms of one core for a frame of 1600 x 1200: least of {} rounds, mean over the images; "
+      "in brackets the 10th\npercentile. sigma {}, strength {}. service: as shipped, sigma "
+      "followed, within a scan.\n{:<14} {:>9}",
+      rounds, kSigma, kStrength, "", "active %");
+  for (const Method& method : methods) fmt::print(" {:>16}", method.name);
+  fmt::print(" {:>16} {:>7}\n", "service", "ratio");
+  for (const Row& row : rows_of_images()) {
+    std::vector<double> least_ms(methods.size() + 1, 0), tenth_ms(methods.size() + 1, 0);
+    const double share = 1.0 / static_cast<double>(row.images.size());
+    double active = 0;
+    std::vector<std::vector<Times>> times(row.images.size(),
+                                          std::vector<Times>(methods.size() + 1));
+    for (std::size_t i = 0; i < row.images.size(); ++i) {
+      service.restart();
+      for (int warm = 0; warm < 3; ++warm) service.extract(view_of(row.images[i]));
+      for (int round = 0; round < rounds; ++round) {
+        for (std::size_t m = 0; m < methods.size(); ++m) {
+          const double begin = cpu_ms();
+          methods[m].run(row.images[i]);
+          times[i][m].ms.push_back(cpu_ms() - begin);
+        }
+        const double begin = cpu_ms();
+        stripe = service.extract(view_of(row.images[i]));
+        times[i].back().ms.push_back(cpu_ms() - begin);
+      }
+      active += share * fast.active_share();
+      for (std::size_t m = 0; m <= methods.size(); ++m) {
+        least_ms[m] += share * times[i][m].least();
+        tenth_ms[m] += share * times[i][m].tenth();
+      }
+    }
+    fmt::print("{:<14} {:9.1f}", row.name(), 100 * active);
+    for (std::size_t m = 0; m <= methods.size(); ++m)
+      fmt::print(" {:7.2f} ({:6.2f})", least_ms[m], tenth_ms[m]);
+    fmt::print(" {:7.1f}\n", least_ms[1] / least_ms[2]);
+    std::fflush(stdout);
+    json["speed.ratio_" + row.name()] = least_ms[1] / least_ms[2];
+    json["speed.ms_" + row.name()] = least_ms[2];
+    json["speed.plain_ms_" + row.name()] = least_ms[1];
+    json["speed.with_selection_ms_" + row.name()] = least_ms[3];
+    json["speed.service_ms_" + row.name()] = least_ms.back();
+    if (row.name() != "typical") continue;
+    json["speed.ms_read"] = least_ms[0];
+    json["speed.ratio_to_read"] = least_ms[2] / least_ms[0];
+    json["speed.ms_with_selection"] = least_ms[3];
+    for (const std::size_t m : {4u, 5u, 6u})
+      json[fmt::format("speed.ms_{}", methods[m].name)] = least_ms[m];
+  }
+
+  // Once warm: the same images again.
+  const Row typical = rows_of_images()[1];
+  const auto allocations = [&](const std::function<void(const cv::Mat&)>& run) {
+    for (int warm = 0; warm < 2; ++warm)
+      for (const cv::Mat& grey : typical.images) run(grey);
+    const std::int64_t before = counted_allocations();
+    for (const cv::Mat& grey : typical.images) run(grey);
+    return static_cast<double>(counted_allocations() - before) /
+           static_cast<double>(typical.images.size());
+  };
+  json["speed.allocations_ridge"] = allocations(methods[2].run);
+  json["speed.allocations_with_selection"] = allocations(methods[3].run);
+  static_cast<void>(seen);
+  fmt::print("allocations a frame, once warm: ridge {}, with selection {}\n",
+             json["speed.allocations_ridge"].get<double>(),
+             json["speed.allocations_with_selection"].get<double>());
+}
+
+}  // namespace arcstart
