@@ -27,6 +27,10 @@ struct ExtractionSettings {
   int longest_hole_px =
       5;  // columns without a centre that do not yet end a segment; nothing is put into them
 
+  // Whether the centres are fitted along the stripe (course.hpp): less speckle, sharper corners,
+  // and centres up to the image's border. Else each is where its own pixel's Hessian says.
+  bool smooth_course = true;
+
   template <class Visitor>
   void visit(Visitor& visitor) {
     visitor("sigma_px", sigma_px, [](const double& value) -> std::string {
@@ -39,6 +43,7 @@ struct ExtractionSettings {
     visitor("strength_exponent", strength_exponent, between(0, 3));
     visitor("fewest_centres", fewest_centres, between(3, 1000));
     visitor("longest_hole_px", longest_hole_px, between(1, 100));
+    visitor("smooth_course", smooth_course);
   }
 };
 

@@ -20,11 +20,11 @@ int RidgeDetector::margin(const GaussianKernels& kernels) {
 
 void RidgeDetector::detect(const GreyImage& image, const GaussianKernels& kernels,
                            double least_curvature, std::vector<RidgePoint>& points) {
-  detect_lines(image, kernels, least_curvature, least_curvature, points);
+  detect_lines(image, kernels, least_curvature, least_curvature, margin(kernels), points);
 }
 
 void RidgeDetector::detect_lines(const GreyImage& image, const GaussianKernels& kernels,
-                                 double least_curvature, double strong_curvature,
+                                 double least_curvature, double strong_curvature, int border,
                                  std::vector<RidgePoint>& points) {
   points.clear();
   active_share_ = 0;
@@ -46,7 +46,7 @@ void RidgeDetector::detect_lines(const GreyImage& image, const GaussianKernels& 
   while (!wanted_.empty()) {
     looked_at += wanted_.size();
     const std::size_t before = found_.size();
-    look_at_wanted(image, kernels, static_cast<float>(least_curvature));
+    look_at_wanted(image, kernels, static_cast<float>(least_curvature), border);
     wanted_.clear();
     if (least_curvature < strong_curvature) want_what_lines_lead_to(before, image);
     std::sort(wanted_.begin(), wanted_.end());
@@ -63,8 +63,8 @@ void RidgeDetector::want(int column, int row) {
 }
 
 void RidgeDetector::look_at_wanted(const GreyImage& image, const GaussianKernels& kernels,
-                                   float least_curvature) {
-  const int border = margin(kernels), rows = rejection_.rows();
+                                   float least_curvature, int border) {
+  const int rows = rejection_.rows();
   for (std::size_t i = 0; i < wanted_.size();) {
     // One tile for as many blocks as touch down the image, so that its halo is filtered once.
     std::size_t end = i + 1;

@@ -33,9 +33,9 @@ class RidgeDetector {
 
   // Of those points all that hang together with one of at least strong_curvature, neighbours being
   // kLineReach apart at most, and some others: what hysteresis needs. Blocks without a strong point
-  // are looked at only where a line leads into them.
+  // are looked at only where a line leads into them. border: instead of the margin; px.
   void detect_lines(const GreyImage& image, const GaussianKernels& kernels, double least_curvature,
-                    double strong_curvature, std::vector<RidgePoint>& points);
+                    double strong_curvature, int border, std::vector<RidgePoint>& points);
 
   // At two sigma the mirrored half shifts a line by less than 0.02 px per px of sigma and unit of
   // slope.
@@ -45,8 +45,8 @@ class RidgeDetector {
 
  private:
   void want(int column, int row);
-  void look_at_wanted(const GreyImage& image, const GaussianKernels& kernels,
-                      float least_curvature);
+  void look_at_wanted(const GreyImage& image, const GaussianKernels& kernels, float least_curvature,
+                      int border);
   void want_what_lines_lead_to(std::size_t first_new, const GreyImage& image);
   void collect_in_raster_order(int height, std::vector<RidgePoint>& points);
 

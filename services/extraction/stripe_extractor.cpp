@@ -8,6 +8,9 @@
 namespace arcstart {
 namespace {
 
+// px from the image's border: on the outermost pixels whatever grows brighter towards it looks like
+// a line along it.
+constexpr int kBorder = 2;
 constexpr double kLeastSigma = 1.2, kLargestSigma = 12;  // px, followed
 constexpr double kFirstLook = 2.5, kSecondLook = 6;      // px, where no scale is known
 constexpr double kLargestOfFirst = 4.5;  // px; a sigma wanted above it the first look cannot judge
@@ -41,7 +44,8 @@ void StripeExtractor::look_at(const GreyImage& image, double sigma) {
   const double strong =
       std::max(settings_.least_strength / strength_factor(sigma, settings_.strength_exponent),
                kNoiseCurvature * noise_ / (sigma * sigma * sigma));
-  detector_.detect_lines(image, kernels_, settings_.weakest_share * strong, strong, points_);
+  detector_.detect_lines(image, kernels_, settings_.weakest_share * strong, strong, border(),
+                         points_);
   linker_.link(points_, {strong, settings_.fewest_centres}, chains_);
   widths_.assign(points_.size(), 0);
   for (const Chain& chain : chains_) measure_widths(image, points_, chain, sigma, noise_, widths_);
@@ -50,7 +54,7 @@ void StripeExtractor::look_at(const GreyImage& image, double sigma) {
   selection.fewest_points = settings_.fewest_centres;
   selection.width = image.width;
   selection.height = image.height;
-  selection.margin = RidgeDetector::margin(kernels_);
+  selection.margin = border();
   selection.junction_reach = 3 * sigma;
   selector_.select(points_, chains_, widths_, selection, selection_);
 }
@@ -122,44 +126,71 @@ double StripeExtractor::scatter_factor(double sigma) const {
   return std::max(1.0, median(ratios) / 0.6745);
 }
 
-Stripe StripeExtractor::describe(const GreyImage& image) const {
-  Stripe stripe;
+void StripeExtractor::set_out(const GreyImage& image, const Branch& branch, double scatter) {
+  const int margin = RidgeDetector::margin(kernels_);
+  course_points_.clear();
+  for (const int i : branch.points) {
+    const RidgePoint& p = points_[i];
+    const bool at_border =
+        std::min({p.column, p.row, image.width - 1 - p.column, image.height - 1 - p.row}) < margin;
+    CoursePoint point{p.u, p.v, scatter * centre_deviation(p.curvature, used_sigma_, noise_),
+                      at_border};
+    if (selection_.along_rows) std::swap(point.along, point.across);
+    course_points_.push_back(point);
+  }
+  if (branch.chosen && settings_.smooth_course) course_.smooth(course_points_, used_sigma_);
+}
+
+void StripeExtractor::describe(const GreyImage& image, Stripe& stripe) {
+  stripe.centres.clear();
   stripe.sigma = static_cast<float>(used_sigma_);
   stripe.noise = static_cast<float>(noise_);
   const double factor = strength_factor(used_sigma_, settings_.strength_exponent);
   const double scatter = scatter_factor(used_sigma_);
-  const int margin = RidgeDetector::margin(kernels_);
   int chosen = 0, saturated = 0;
   for (std::size_t b = 0; b < selection_.branches.size(); ++b) {
     const Branch& branch = selection_.branches[b];
-    const BranchEnds ends = branch_ends(image, points_, selection_, b, used_sigma_, margin);
+    const BranchEnds ends = branch_ends(image, points_, selection_, b, used_sigma_, border());
+    set_out(image, branch, scatter);
+    const std::size_t first = stripe.centres.size();
     for (std::size_t i = 0; i < branch.points.size(); ++i) {
       const RidgePoint& p = points_[branch.points[i]];
+      const CoursePoint& course = course_points_[i];
+      if (course.deviation == 0) continue;
       StripeCentre centre{};
-      centre.u = p.u;
-      centre.v = p.v;
+      centre.u = static_cast<float>(selection_.along_rows ? course.across : course.along);
+      centre.v = static_cast<float>(selection_.along_rows ? course.along : course.across);
       centre.strength = static_cast<float>(factor * p.curvature);
       centre.width = widths_[branch.points[i]];
-      centre.deviation =
-          static_cast<float>(scatter * centre_deviation(p.curvature, used_sigma_, noise_));
+      centre.deviation = static_cast<float>(course.deviation);
       centre.segment = static_cast<std::int16_t>(b);
       centre.chosen = branch.chosen;
-      centre.end = i == 0                          ? ends.first
-                   : i + 1 == branch.points.size() ? ends.last
-                                                   : SegmentEnd::kContinues;
+      centre.end = SegmentEnd::kContinues;
       if (branch.chosen) {
         ++chosen;
         saturated += is_saturated(image, p.u, p.v);
       }
       stripe.centres.push_back(centre);
     }
+    if (stripe.centres.size() == first) continue;
+    stripe.centres[first].end = ends.first;
+    stripe.centres.back().end = ends.last;
   }
-  if (chosen > 0)
-    stripe.saturated_share = static_cast<float>(saturated) / static_cast<float>(chosen);
-  return stripe;
+  stripe.saturated_share =
+      chosen > 0 ? static_cast<float>(saturated) / static_cast<float>(chosen) : 0;
+}
+
+int StripeExtractor::border() const {
+  return settings_.smooth_course ? kBorder : RidgeDetector::margin(kernels_);
 }
 
 Stripe StripeExtractor::extract(const GreyImage& image) {
+  Stripe stripe;
+  extract(image, stripe);
+  return stripe;
+}
+
+void StripeExtractor::extract(const GreyImage& image, Stripe& stripe) {
   noise_ = noise_of(image);
   const bool follows = settings_.sigma_px == 0;
   if (!follows)
@@ -168,10 +199,9 @@ Stripe StripeExtractor::extract(const GreyImage& image) {
     find_scale(image);
   else
     look_at(image, sigma_);
-  Stripe stripe = describe(image);
-  if (stripe.centres.empty()) stripe.empty = "no stripe found";
+  describe(image, stripe);
+  stripe.empty = stripe.centres.empty() ? "no stripe found" : "";
   if (follows && sigma_ > 0) follow_scale();
-  return stripe;
 }
 
 }  // namespace arcstart

@@ -6,6 +6,7 @@
 #include <string>
 #include <vector>
 
+#include "services/extraction/course.hpp"
 #include "services/extraction/extraction_settings.hpp"
 #include "services/extraction/grey_image.hpp"
 #include "services/extraction/linking.hpp"
@@ -38,6 +39,7 @@ class StripeExtractor {
   explicit StripeExtractor(const ExtractionSettings& settings) : settings_(settings) {}
 
   Stripe extract(const GreyImage& image);
+  void extract(const GreyImage& image, Stripe& stripe);  // takes no memory that it has already
 
   // Forgets the scale: the next image is looked at as if it were the first.
   void restart() { sigma_ = 0; }
@@ -51,7 +53,9 @@ class StripeExtractor {
   double chosen_strength() const;
   double wanted_sigma() const;  // from the widths seen; px, 0 where too few
   double scatter_factor(double sigma) const;
-  Stripe describe(const GreyImage& image) const;
+  int border() const;  // px, in which nothing is looked for
+  void set_out(const GreyImage& image, const Branch& branch, double scatter);
+  void describe(const GreyImage& image, Stripe& stripe);
 
   ExtractionSettings settings_;
   double sigma_ = 0;  // followed; 0: not known yet
@@ -67,6 +71,8 @@ class StripeExtractor {
   std::vector<Chain> chains_;
   std::vector<float> widths_;  // of each point; px, 0 where not measured
   Selection selection_;
+  Course course_;
+  std::vector<CoursePoint> course_points_;  // of a branch
 };
 
 }  // namespace arcstart

@@ -276,7 +276,8 @@ TEST_CASE("lines are found whole wherever one of their points is strong") {
   std::vector<RidgePoint> all, lines;
   detector.detect(view_of(grey), kernels, weak, all);
   const double all_share = detector.active_share();
-  detector.detect_lines(view_of(grey), kernels, weak, strong, lines);
+  detector.detect_lines(view_of(grey), kernels, weak, strong, RidgeDetector::margin(kernels),
+                        lines);
   if (sigma > 2) CHECK(detector.active_share() < all_share);
 
   // Grown from the strong points over neighbours, by brute force.
