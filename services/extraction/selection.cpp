@@ -8,7 +8,7 @@ namespace arcstart {
 namespace {
 
 // Worth and cost are in columns of clean stripe.
-constexpr float kBreakCost = 20;       // to leave a line for any other place
+constexpr float kBreakCost = 24;       // to leave a line for any other place
 constexpr int kNear = 4;               // columns within which a path goes on as on one line
 constexpr float kLongestNearJump = 6;  // px
 constexpr int kFar = 100;              // columns over which a line may be found again after a gap
@@ -16,8 +16,9 @@ constexpr float kSteepest = 4;         // slope believed in
 constexpr int kMostOfLine = 6;         // candidates of a line
 constexpr float kSameLine = 4;         // px: nearer points of a column belong to one stripe
 
-constexpr float kWider = 0.6f,
-                kNarrower = 1.2f;  // logarithm of a width's ratio to the usual that is unlikely
+// Logarithm of a width's ratio to the usual that is unlikely. A blob is wider; narrower is the
+// stripe itself where it is dim, but where it is bright that is spatter.
+constexpr float kWider = 0.6f, kNarrower = 1.2f, kNarrowerAndBright = 0.6f;
 
 using Weighted = std::pair<float, float>;  // value, weight
 
@@ -103,9 +104,10 @@ void Selector::rate(const std::vector<float>& widths) {
   for (Candidate& c : candidates_) {
     float likeness = 0.7f;
     if (widths[c.point] > 0) {
-      // A blob is wider; narrower is the stripe itself where it is dim.
       float difference = std::log(widths[c.point] / usual_width);
-      difference /= difference > 0 ? kWider : kNarrower;
+      difference /= difference > 0                  ? kWider
+                    : c.curvature > usual_curvature ? kNarrowerAndBright
+                                                    : kNarrower;
       likeness = std::exp(-0.5f * difference * difference);
     }
     const float strength = std::sqrt(std::min(1.0f, c.curvature / usual_curvature));
