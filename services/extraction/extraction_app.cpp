@@ -13,6 +13,15 @@ static_assert(static_cast<int>(SegmentEnd::kGap) == stripe_t::GAP);
 static_assert(static_cast<int>(SegmentEnd::kBorder) == stripe_t::BORDER);
 static_assert(static_cast<int>(SegmentEnd::kSaturation) == stripe_t::SATURATION);
 
+namespace {
+
+cv::Mat view(const GreyImage& grey) {
+  return {grey.height, grey.width, CV_8U, const_cast<std::uint8_t*>(grey.data),
+          static_cast<std::size_t>(grey.stride)};
+}
+
+}  // namespace
+
 ExtractionApp::ExtractionApp(Bus& bus, const ExtractionSettings& settings, const Instance& instance)
     : bus_(bus), stripe_channel_(instance.sensor_channel("STRIPE")), extractor_(settings) {
   bus_.subscribe<image_t>(instance.sensor_channel("IMAGE"), Queue::images(),
@@ -45,7 +54,6 @@ void ExtractionApp::count_lost(const image_t& image) {
 
 std::string ExtractionApp::grey_values(const image_t& image, GreyImage& grey) {
   if (!image.incomplete.empty()) return "image incomplete: " + image.incomplete;
-  if (!image.laser_on) return "laser off";
   if (image.width <= 0 || image.height <= 0) return "image has no size";
   const std::uint8_t* data = image.data.data();
   std::string error;
@@ -69,6 +77,32 @@ std::string ExtractionApp::grey_values(const image_t& image, GreyImage& grey) {
   return "";
 }
 
+void ExtractionApp::keep_laser_off(const image_t& image, const GreyImage& grey) {
+  view(grey).copyTo(laser_off_grey_);
+  laser_off_.run_id = image.run_id;
+  laser_off_.scan_id = image.scan_id;
+  laser_off_.seq = image.seq;
+  laser_off_.offset_u = image.offset_u;
+  laser_off_.offset_v = image.offset_v;
+  laser_off_.exposure_us = image.exposure_us;
+  laser_off_.gain_db = image.gain_db;
+}
+
+// Where the camera takes images with the laser on and off by turns, the one before shows what else
+// lights the scene: taken of the same region in the same way, it is subtracted (not below 0).
+GreyImage ExtractionApp::without_ambient_light(const image_t& image, const GreyImage& grey) {
+  const cv::Mat lit = view(grey);
+  const bool fits =
+      laser_off_grey_.size() == lit.size() && laser_off_.run_id == image.run_id &&
+      laser_off_.scan_id == image.scan_id && laser_off_.seq == image.seq - 1 &&
+      laser_off_.offset_u == image.offset_u && laser_off_.offset_v == image.offset_v &&
+      laser_off_.exposure_us == image.exposure_us && laser_off_.gain_db == image.gain_db;
+  if (!fits) return grey;
+  cv::subtract(lit, laser_off_grey_, difference_);
+  return {difference_.data, difference_.cols, difference_.rows,
+          static_cast<std::ptrdiff_t>(difference_.step)};
+}
+
 stripe_t ExtractionApp::stripe_of(const image_t& image) {
   stripe_t message{};
   message.utime = image.utime;
@@ -82,7 +116,13 @@ stripe_t ExtractionApp::stripe_of(const image_t& image) {
   GreyImage grey;
   message.empty = grey_values(image, grey);
   if (!message.empty.empty()) return message;
-  const Stripe stripe = extractor_.extract(grey);
+  if (!image.laser_on) {
+    keep_laser_off(image, grey);
+    message.empty = "laser off";
+    return message;
+  }
+  extractor_.extract(without_ambient_light(image, grey), stripe_);
+  const Stripe& stripe = stripe_;
   message.sigma = stripe.sigma;
   message.noise = stripe.noise;
   message.saturated_share = stripe.saturated_share;

@@ -24,17 +24,24 @@ class ExtractionApp : public App {
   void take(const image_t& image);
   void count_lost(const image_t& image);
   stripe_t stripe_of(const image_t& image);
-  std::string grey_values(const image_t& image,
-                          GreyImage& grey);  // why there are none, empty where there are
+  // Why there are none, empty where there are.
+  std::string grey_values(const image_t& image, GreyImage& grey);
+  void keep_laser_off(const image_t& image, const GreyImage& grey);
+  GreyImage without_ambient_light(const image_t& image, const GreyImage& grey);
 
   Bus& bus_;
   std::string stripe_channel_;
   StripeExtractor extractor_;
-  cv::Mat decoded_;
+  cv::Mat decoded_, difference_;
+  Stripe stripe_;
   Health health_;
 
   // Of the image before.
   std::int64_t run_id_ = -1, scan_id_ = 0, seq_ = -1;
+
+  // The newest image taken with the laser off; laser_off_ without its bytes.
+  image_t laser_off_{};
+  cv::Mat laser_off_grey_;
 };
 
 }  // namespace arcstart

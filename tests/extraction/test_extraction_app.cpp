@@ -177,6 +177,34 @@ TEST_CASE("gaps in a scan's sequence are counted as lost, what lies between scan
   CHECK(cell.health().lost == 5);
 }
 
+TEST_CASE("where the laser is on and off by turns, the image before is subtracted") {
+  // Another line, brighter than the stripe, that does not come from the laser.
+  cv::Mat ambient = darkness(320, 160);
+  add_stripe(ambient, -10, 110, 330, 100, 200, 2);
+  cv::Mat lit = ambient.clone();
+  add_stripe(lit, -10, 60, 330, 77, 100, 2);
+  Cell cell;
+  const auto far_from_stripe = [](const stripe_t& stripe) {
+    int count = 0;
+    for (int i = 0; i < stripe.count; ++i)
+      count += std::abs(stripe.v[i] - 60 - 0.05 * (stripe.u[i] + 10)) > 2;
+    return count;
+  };
+  image_t off = Cell::image(expose(ambient, 2, 1), 0);
+  off.laser_on = 0;
+  CHECK(cell.answer(off).empty == "laser off");
+  const stripe_t& stripe = cell.answer(Cell::image(expose(lit, 2, 2), 1));
+  CHECK(stripe.count > 280);
+  CHECK(far_from_stripe(stripe) == 0);
+  // The image before was not one with the laser off, or was taken in another way.
+  CHECK(far_from_stripe(cell.answer(Cell::image(expose(lit, 2, 3), 2))) > 280);
+  off.seq = off.scan_index = 3;
+  cell.answer(off);
+  image_t longer = Cell::image(expose(lit, 2, 4), 4);
+  longer.exposure_us *= 2;
+  CHECK(far_from_stripe(cell.answer(longer)) > 280);
+}
+
 TEST_CASE("sigma begins anew with each scan, and single images leave no trace") {
   Cell cell;
   const cv::Mat narrow = picture(60, 1.5), wide = picture(60, 3.5);
