@@ -12,6 +12,7 @@ namespace arcstart {
 namespace {
 
 constexpr std::size_t kMostFramesWaiting = 30;
+constexpr std::size_t kMostBytesKept = 256u << 20;  // of pixels
 constexpr std::int64_t kFirstDeviceTime = 1'000'000'000;  // ns
 
 std::vector<std::filesystem::path> images_in(const std::string& folder) {
@@ -95,6 +96,12 @@ void FolderSource::play() {
                     settings_.folder)});
     return;
   }
+  // From memory as far as it goes: decoding is too slow for a hundred images a second.
+  std::vector<Frame> kept;
+  for (std::size_t bytes = 0; kept.size() < files.size() && bytes < kMostBytesKept;) {
+    kept.push_back(read_frame(files[kept.size()]));
+    bytes += kept.back().pixels.size();
+  }
   const auto period =
       std::chrono::nanoseconds(static_cast<std::int64_t>(1e9 / settings_.frame_rate_hz));
   CameraFound found;
@@ -109,7 +116,7 @@ void FolderSource::play() {
   for (std::int64_t number = 0;; ++number) {
     const auto place = static_cast<std::size_t>(number) % files.size();
     if (number > 0 && place == 0 && !settings_.folder_loops) break;
-    Frame frame = read_frame(files[place]);
+    Frame frame = place < kept.size() ? kept[place] : read_frame(files[place]);
     if (!wait_until(begin + number * period + exposure)) return;
     frame.seq = number + 1;
     frame.device_time_ns = kFirstDeviceTime + number * period.count();
