@@ -5,6 +5,7 @@
 #include <fmt/format.h>
 
 #include <CLI/CLI.hpp>
+#include <algorithm>
 #include <fstream>
 #include <opencv2/core.hpp>
 
@@ -18,8 +19,8 @@ int main(int argc, char** argv) {
   options.add_option("--seeds", seeds, "Of each scene, 1 to N, none left out")
       ->capture_default_str();
   options.add_option("--rounds", rounds, "Of the timing")->capture_default_str();
-  options.add_option("--part", parts, "accuracy, noise, identity or speed; all by default")
-      ->check(CLI::IsMember({"accuracy", "noise", "identity", "speed"}));
+  options.add_option("--part", parts, "accuracy, noise, real, identity or speed; all by default")
+      ->check(CLI::IsMember({"accuracy", "noise", "real", "identity", "speed"}));
   CLI11_PARSE(options, argc, argv);
   cv::setNumThreads(1);
   const auto wanted = [&](const std::string& part) {
@@ -29,6 +30,7 @@ int main(int argc, char** argv) {
   if (wanted("speed")) bench_speed(rounds, json);
   if (wanted("identity")) bench_identity(seeds, json);
   if (wanted("noise")) bench_white_noise(seeds, json);
+  if (wanted("real")) bench_real_images(json);
   if (wanted("accuracy")) bench_accuracy(seeds, json);
   if (!json_path.empty() && !(std::ofstream(json_path) << json.dump(2) << '\n')) {
     fmt::print(stderr, "bench_extraction: {} cannot be written\n", json_path);

@@ -15,6 +15,9 @@ void bench_white_noise(int seeds, nlohmann::json& json);
 // The fast ridge detector's points beside those of the plain form in double precision.
 void bench_identity(int seeds, nlohmann::json& json);
 
+// Stripes of a real sensor, without truth: how straight the centres lie, and in how many rows.
+void bench_real_images(nlohmann::json& json);
+
 // Time of this thread for a frame of 1600 x 1200, all methods by turns in one process, the least of
 // `rounds`.
 void bench_speed(int rounds, nlohmann::json& json);
