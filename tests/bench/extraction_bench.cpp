@@ -21,8 +21,15 @@ int main(int argc, char** argv) {
   options.add_option("--rounds", rounds, "Of the timing")->capture_default_str();
   options.add_option("--part", parts, "accuracy, noise, real, identity or speed; all by default")
       ->check(CLI::IsMember({"accuracy", "noise", "real", "identity", "speed"}));
+  std::string pictures;
+  options.add_option("--pictures", pictures, "Draw the scenes into this folder, measure nothing")
+      ->check(CLI::ExistingDirectory);
   CLI11_PARSE(options, argc, argv);
   cv::setNumThreads(1);
+  if (!pictures.empty()) {
+    arcstart::draw_scenes(pictures);
+    return 0;
+  }
   const auto wanted = [&](const std::string& part) {
     return parts.empty() || std::find(parts.begin(), parts.end(), part) != parts.end();
   };

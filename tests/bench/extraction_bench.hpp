@@ -2,6 +2,7 @@
 #pragma once
 
 #include <nlohmann/json.hpp>
+#include <string>
 
 namespace arcstart {
 
@@ -17,6 +18,9 @@ void bench_identity(int seeds, nlohmann::json& json);
 
 // Stripes of a real sensor, without truth: how straight the centres lie, and in how many rows.
 void bench_real_images(nlohmann::json& json);
+
+// The middle of each scene of seed 1 with its centres, FOLDER/<scene>.jpg.
+void draw_scenes(const std::string& folder);
 
 // Time of this thread for a frame of 1600 x 1200, all methods by turns in one process, the least of
 // `rounds`.
