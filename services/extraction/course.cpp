@@ -13,27 +13,38 @@ constexpr std::size_t kUsual = 1;      // whose median misfit is the usual one
 constexpr double kMisfit = 1.7 * 1.7;  // times the usual one is still borne
 constexpr std::size_t kFewestPoints = 12;
 
-// Solves the symmetric positive definite a x = b by Cholesky; false where it is none.
+// A symmetric positive definite matrix taken apart (Cholesky).
 template <int kSize>
-bool solve(std::array<std::array<double, kSize>, kSize> a, std::array<double, kSize>& b) {
-  for (int i = 0; i < kSize; ++i) {
-    for (int j = 0; j <= i; ++j) {
-      double sum = a[i][j];
-      for (int k = 0; k < j; ++k) sum -= a[i][k] * a[j][k];
-      if (i == j && !(sum > 1e-12)) return false;
-      a[i][j] = i == j ? std::sqrt(sum) : sum / a[j][j];
+struct Factors {
+  std::array<std::array<double, kSize>, kSize> lower{};
+  std::array<double, kSize> inverse{};  // of the diagonal
+
+  bool take_apart(const std::array<std::array<double, kSize>, kSize>& a) {
+    for (int i = 0; i < kSize; ++i)
+      for (int j = 0; j <= i; ++j) {
+        double sum = a[i][j];
+        for (int k = 0; k < j; ++k) sum -= lower[i][k] * lower[j][k];
+        if (i > j) {
+          lower[i][j] = sum * inverse[j];
+        } else {
+          if (!(sum > 1e-12)) return false;
+          lower[i][i] = std::sqrt(sum);
+          inverse[i] = 1 / lower[i][i];
+        }
+      }
+    return true;
+  }
+  void solve(std::array<double, kSize>& b) const {
+    for (int i = 0; i < kSize; ++i) {
+      for (int k = 0; k < i; ++k) b[i] -= lower[i][k] * b[k];
+      b[i] *= inverse[i];
     }
-    double sum = b[i];
-    for (int k = 0; k < i; ++k) sum -= a[i][k] * b[k];
-    b[i] = sum / a[i][i];
+    for (int i = kSize - 1; i >= 0; --i) {
+      for (int k = i + 1; k < kSize; ++k) b[i] -= lower[k][i] * b[k];
+      b[i] *= inverse[i];
+    }
   }
-  for (int i = kSize - 1; i >= 0; --i) {
-    double sum = b[i];
-    for (int k = i + 1; k < kSize; ++k) sum -= a[k][i] * b[k];
-    b[i] = sum / a[i][i];
-  }
-  return true;
-}
+};
 
 // A polynomial in x / reach about the point, and what it says there: its value moved back by the
 // bend, and that value's variance for independent points of variance 1.
@@ -44,15 +55,17 @@ struct Polynomial {
   double value = 0, variance = 0;
 
   bool fit(double reach, double sigma) {
+    Factors<kSize> factors;
+    if (!factors.take_apart(normal)) return false;
     coefficients = moments;
-    if (!solve<kSize>(normal, coefficients)) return false;
+    factors.solve(coefficients);
     const double slope = coefficients[1] / reach;
     std::array<double, kSize> weights{};  // of the coefficients in the value
     weights[0] = 1;
     weights[2] = -sigma * sigma / (reach * reach) / (1 + slope * slope);
     value = coefficients[0] + weights[2] * coefficients[2];
     std::array<double, kSize> solved = weights;
-    solve<kSize>(normal, solved);
+    factors.solve(solved);
     variance = 0;
     for (int i = 0; i < kSize; ++i) variance += weights[i] * solved[i];
     return true;
@@ -154,9 +167,11 @@ void Course::fit_all(const std::vector<CoursePoint>& points, double sigma) {
   sigma_ = sigma;
   add_up(points);
   misfits_.clear();
-  for (std::size_t i = 0; i < points.size(); ++i)
-    if (const Fit fit = fit_parabola(points, i, kReach[kUsual] * sigma); fit.valid)
-      misfits_.push_back(fit.misfit);
+  usual_.clear();
+  for (std::size_t i = 0; i < points.size(); ++i) {
+    usual_.push_back(fit_parabola(points, i, kReach[kUsual] * sigma));
+    if (usual_.back().valid) misfits_.push_back(usual_.back().misfit);
+  }
   if (misfits_.empty()) return;
   const auto middle = misfits_.begin() + static_cast<std::ptrdiff_t>(misfits_.size() / 2);
   std::nth_element(misfits_.begin(), middle, misfits_.end());
@@ -172,8 +187,9 @@ void Course::fit_all(const std::vector<CoursePoint>& points, double sigma) {
     for (std::size_t level = 0; level < levels; ++level) {
       const bool last = level + 1 == levels;
       const Fit wide = fit;
-      fit = level + 1 == kReach.size() ? fit_quartic(points, i, kReach[level] * sigma)
-                                       : fit_parabola(points, i, kReach[level] * sigma);
+      fit = level == kUsual              ? usual_[i]
+            : level + 1 == kReach.size() ? fit_quartic(points, i, kReach[level] * sigma)
+                                         : fit_parabola(points, i, kReach[level] * sigma);
       if (!fit.valid && points[i].at_border) fit = wide;
       if (fit.valid && (last || fit.misfit <= most)) break;
     }

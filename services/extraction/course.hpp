@@ -45,6 +45,7 @@ class Course {
 
   double sigma_ = 0, origin_along_ = 0, origin_across_ = 0;
   std::vector<Sums> sums_;
+  std::vector<Fit> usual_;
   std::vector<double> misfits_;
   std::vector<CoursePoint> smoothed_;
 };

@@ -6,6 +6,8 @@
 #include <numbers>
 #include <vector>
 
+#include "services/extraction/instruction_sets.hpp"
+
 namespace arcstart {
 namespace {
 
@@ -23,6 +25,29 @@ double grey_at(const GreyImage& image, double u, double v) {
   const double du = u - column, dv = v - row;
   return (1 - dv) * ((1 - du) * image.at(column, row) + du * image.at(right, row)) +
          dv * ((1 - du) * image.at(column, below) + du * image.at(right, below));
+}
+
+// The grey values across a line, at p + k normal for k = -reach .. reach.
+void sample_profile(const GreyImage& image, float u, float v, float normal_u, float normal_v,
+                    int reach, float* profile) {
+  const float far_u = std::abs(normal_u) * static_cast<float>(reach) + 1,
+              far_v = std::abs(normal_v) * static_cast<float>(reach) + 1;
+  const bool inside = u > far_u && v > far_v && u + far_u < static_cast<float>(image.width - 1) &&
+                      v + far_v < static_cast<float>(image.height - 1);
+  for (int k = -reach; k <= reach; ++k) {
+    const float at_u = u + static_cast<float>(k) * normal_u,
+                at_v = v + static_cast<float>(k) * normal_v;
+    if (!inside) {
+      *profile++ = static_cast<float>(grey_at(image, at_u, at_v));
+      continue;
+    }
+    const int column = static_cast<int>(at_u), row = static_cast<int>(at_v);
+    const float du = at_u - static_cast<float>(column), dv = at_v - static_cast<float>(row);
+    const std::uint8_t *above = image.row(row) + column, *below = above + image.stride;
+    const float a = static_cast<float>(above[0]) + du * static_cast<float>(above[1] - above[0]);
+    const float b = static_cast<float>(below[0]) + du * static_cast<float>(below[1] - below[0]);
+    *profile++ = a + dv * (b - a);
+  }
 }
 
 // Where the profile falls below the level, going from `at` by `step`; between the samples. At most
@@ -69,27 +94,50 @@ double profile_width(const std::vector<float>& raw, double sigma, double noise) 
 
 }  // namespace
 
+namespace {
+
+constexpr int kPatch = 16;
+
+struct Patch {
+  const std::uint8_t* greys;  // its upper left pixel
+  std::ptrdiff_t stride;
+  int sum;  // of the mask's absolute responses
+};
+
+template <int>
+ARCSTART_INLINE_BODY void add_up_body(Patch& patch) {
+  int sum = 0;
+  for (int v = 0; v < kPatch; ++v) {
+    const std::uint8_t *b = patch.greys + v * patch.stride, *a = b - patch.stride,
+                       *c = b + patch.stride;
+    for (int u = 0; u < kPatch; ++u)
+      sum += std::abs(a[u - 1] - 2 * a[u] + a[u + 1] - 2 * (b[u - 1] - 2 * b[u] + b[u + 1]) +
+                      c[u - 1] - 2 * c[u] + c[u + 1]);
+  }
+  patch.sum = sum;
+}
+ARCSTART_FOR_EACH_INSTRUCTION_SET(add_up, (Patch & patch), (patch))
+
+}  // namespace
+
 double noise_of(const GreyImage& image) {
-  constexpr int kPatch = 14, kPatchesAcross = 24;
+  constexpr int kPatchesAcross = 24;
   if (std::min(image.width, image.height) < kPatch + 2) return 0;
-  std::vector<double> patches;
+  std::array<int, kPatchesAcross * kPatchesAcross> sums;
   for (int j = 0; j < kPatchesAcross; ++j)
     for (int i = 0; i < kPatchesAcross; ++i) {
       const int u0 = 1 + (image.width - 2 - kPatch) * i / (kPatchesAcross - 1);
       const int v0 = 1 + (image.height - 2 - kPatch) * j / (kPatchesAcross - 1);
-      int sum = 0;
-      for (int v = v0; v < v0 + kPatch; ++v) {
-        const std::uint8_t *a = image.row(v - 1), *b = image.row(v), *c = image.row(v + 1);
-        for (int u = u0; u < u0 + kPatch; ++u)
-          sum += std::abs(a[u - 1] - 2 * a[u] + a[u + 1] - 2 * (b[u - 1] - 2 * b[u] + b[u + 1]) +
-                          c[u - 1] - 2 * c[u] + c[u + 1]);
-      }
-      // The mask's response to unit noise has a standard deviation of 6, its absolute value a mean
-      // of sqrt(2/pi) of that.
-      patches.push_back(sum / (6.0 * kPatch * kPatch) * std::sqrt(std::numbers::pi / 2));
+      Patch patch{image.row(v0) + u0, image.stride, 0};
+      add_up(patch);
+      sums[j * kPatchesAcross + i] = patch.sum;
     }
-  std::nth_element(patches.begin(), patches.begin() + patches.size() / 2, patches.end());
-  return std::max(patches[patches.size() / 2], 1 / std::sqrt(12.0));
+  std::nth_element(sums.begin(), sums.begin() + sums.size() / 2, sums.end());
+  // The mask's response to unit noise has a standard deviation of 6, its absolute value a mean of
+  // sqrt(2/pi) of that.
+  const double noise =
+      sums[sums.size() / 2] / (6.0 * kPatch * kPatch) * std::sqrt(std::numbers::pi / 2);
+  return std::max(noise, 1 / std::sqrt(12.0));
 }
 
 void measure_widths(const GreyImage& image, const std::vector<RidgePoint>& points,
@@ -105,9 +153,8 @@ void measure_widths(const GreyImage& image, const std::vector<RidgePoint>& point
       const RidgePoint& before = points[chain[i - 1]];
       if (p.normal_u * before.normal_u + p.normal_v * before.normal_v < 0) sense = -sense;
     }
-    for (int k = -reach; k <= reach; ++k)
-      profiles[i * size + k + reach] = static_cast<float>(
-          grey_at(image, p.u + sense * k * p.normal_u, p.v + sense * k * p.normal_v));
+    sample_profile(image, p.u, p.v, sense * p.normal_u, sense * p.normal_v, reach,
+                   &profiles[static_cast<std::size_t>(i) * size]);
   }
   for (int i = 0; i < count; ++i) {
     const int begin = std::max(0, i - kNeighbours), end = std::min(count, i + kNeighbours + 1);

@@ -11,7 +11,7 @@ namespace arcstart {
 
 // Standard deviation of the grey values where the image is flat: the median over patches spread
 // over the image of what a mask that sees neither slope nor curvature gives (Immerkaer 1996); at
-// least that of rounding, 0.29. 0 for an image below 16 x 16.
+// least that of rounding, 0.29. 0 for an image below 18 x 18.
 double noise_of(const GreyImage& image);
 
 // Standard deviation of the stripe's profile across each point of a chain, px, into widths[point];
