@@ -63,22 +63,22 @@ void Linker::find_neighbours(const std::vector<RidgePoint>& points) {
   }
 }
 
-Chain Linker::follow(int start, int side, std::size_t size) {
-  Chain chain;
+// Into followed_.
+void Linker::follow(int start, int side, std::size_t size) {
+  followed_.clear();
   int at = start, from_side = 1 - side;  // leave `at` by the side it was not entered from
-  while (at >= 0 && !taken_[at] && chain.size() < size) {
+  while (at >= 0 && !taken_[at] && followed_.size() < size) {
     taken_[at] = 1;
-    chain.push_back(at);
+    followed_.push_back(at);
     const int next = linked_[at][1 - from_side];
     if (next < 0) break;
     from_side = linked_[next][0] == at ? 0 : 1;
     at = next;
   }
-  return chain;
 }
 
 void Linker::link(const std::vector<RidgePoint>& points, const LinkingSettings& settings,
-                  std::vector<Chain>& chains) {
+                  std::vector<Chain>& chains, Memory memory) {
   chains.clear();
   find_neighbours(points);
   const int count = static_cast<int>(points.size());
@@ -93,18 +93,19 @@ void Linker::link(const std::vector<RidgePoint>& points, const LinkingSettings& 
     }
 
   taken_.assign(points.size(), 0);
-  const auto keep = [&](Chain chain) {
-    if (static_cast<int>(chain.size()) < settings.fewest_points) return;
-    const auto strong = std::count_if(chain.begin(), chain.end(), [&](int i) {
+  const auto follow_and_keep = [&](int start, int side) {
+    follow(start, side, points.size());
+    if (static_cast<int>(followed_.size()) < settings.fewest_points) return;
+    const auto strong = std::count_if(followed_.begin(), followed_.end(), [&](int i) {
       return points[i].curvature >= settings.strong_curvature;
     });
-    if (strong >= 3) chains.push_back(std::move(chain));
+    if (strong >= 3) chains.emplace_back(followed_.begin(), followed_.end(), memory);
   };
   for (int i = 0; i < count; ++i)  // from each end; what is left then is closed
     if (!taken_[i] && (linked_[i][0] < 0 || linked_[i][1] < 0))
-      keep(follow(i, linked_[i][1] >= 0 ? 1 : 0, points.size()));
+      follow_and_keep(i, linked_[i][1] >= 0 ? 1 : 0);
   for (int i = 0; i < count; ++i)
-    if (!taken_[i]) keep(follow(i, 1, points.size()));
+    if (!taken_[i]) follow_and_keep(i, 1);
 }
 
 }  // namespace arcstart

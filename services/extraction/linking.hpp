@@ -4,6 +4,7 @@
 #include <array>
 #include <vector>
 
+#include "services/extraction/frame_memory.hpp"
 #include "services/extraction/ridge.hpp"
 
 namespace arcstart {
@@ -15,25 +16,25 @@ struct LinkingSettings {
 };
 
 // Indices of points, in order along the line.
-using Chain = std::vector<int>;
+using Chain = FrameVector<int>;
 
 class Linker {
  public:
   // points in raster order. Two points are linked where each is the other's best neighbour on that
   // side: near, ahead along the tangent, and of like direction. So a chain grows to both sides,
   // does not depend on where one begins, and never forks. Chains come in order of their first point
-  // in the raster.
+  // in the raster, in the memory given.
   void link(const std::vector<RidgePoint>& points, const LinkingSettings& settings,
-            std::vector<Chain>& chains);
+            std::vector<Chain>& chains, Memory memory = heap());
 
  private:
   void find_neighbours(const std::vector<RidgePoint>& points);
-  Chain follow(int start, int side, std::size_t size);
+  void follow(int start, int side, std::size_t size);
 
   // Sides 0 and 1: against and along the tangent (-normal_v, normal_u).
   std::vector<std::array<int, 2>> best_, linked_;
   std::vector<char> taken_;
-  std::vector<int> row_begin_;
+  std::vector<int> row_begin_, followed_;
 };
 
 }  // namespace arcstart

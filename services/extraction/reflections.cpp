@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <map>
+#include <memory_resource>
 
 namespace arcstart {
 namespace {
@@ -58,11 +59,12 @@ struct Outlook {
 };
 
 // For each end, the first point of each other chain that it runs into.
-void find_meetings(const std::vector<RidgePoint>& points, const std::vector<Place>& places,
-                   const Chain& chain, bool last, double reach, std::vector<Meeting>& meetings) {
+void find_meetings(const std::vector<RidgePoint>& points, const FrameVector<Place>& places,
+                   const Chain& chain, bool last, double reach, FrameVector<Meeting>& meetings) {
   const Outlook outlook(points, chain, last, reach);
   const int end = last ? chain.back() : chain.front();
-  std::map<int, int> nearest;  // chain to point
+  // Chain to point.
+  std::pmr::map<int, int> nearest(meetings.get_allocator().resource());
   auto at = std::lower_bound(points.begin(), points.end(),
                              static_cast<int>(std::floor(outlook.lowest_v())),
                              [](const RidgePoint& p, int row) { return p.row < row; });
@@ -81,8 +83,8 @@ void find_meetings(const std::vector<RidgePoint>& points, const std::vector<Plac
 }
 
 // Ends that meet share a junction, also by way of others.
-void name_junctions(const std::vector<Place>& places, const std::vector<Meeting>& meetings,
-                    int near, std::vector<Strand>& strands) {
+void name_junctions(const FrameVector<Place>& places, const FrameVector<Meeting>& meetings,
+                    int near, FrameVector<Strand>& strands) {
   int count = 0;
   for (const Meeting& meeting : meetings) {
     int name = -1;
@@ -109,13 +111,13 @@ void name_junctions(const std::vector<Place>& places, const std::vector<Meeting>
 // same columns that goes on the same way (a step in the profile), or at the first or last column
 // where anything is seen.
 void find_ends_that_lead_on(const std::vector<RidgePoint>& points, const Sight& sight,
-                            std::vector<Strand>& strands) {
+                            FrameVector<Strand>& strands) {
   struct End {
     int strand, side;
     float at;       // column, or row
     float inwards;  // to the strand's other end; px
   };
-  std::vector<End> ends;
+  FrameVector<End> ends(strands.get_allocator().resource());
   for (int s = 0; s < static_cast<int>(strands.size()); ++s) {
     const RidgePoint &first = points[strands[s].points.front()],
                      &last = points[strands[s].points.back()];
@@ -144,7 +146,7 @@ struct Leaving {
 };
 
 Leaving leave(const std::vector<RidgePoint>& points, const Sight& sight,
-              const std::vector<Strand>& strands, int index, int side) {
+              const FrameVector<Strand>& strands, int index, int side) {
   const Chain& chain = strands[index].points;
   const int size = static_cast<int>(chain.size());
   const auto from_junction = [&](int i) -> const RidgePoint& {
@@ -159,8 +161,8 @@ Leaving leave(const std::vector<RidgePoint>& points, const Sight& sight,
 }
 
 void mark_at_corners(const std::vector<RidgePoint>& points, const Sight& sight,
-                     std::vector<Strand>& strands) {
-  std::map<int, std::vector<Leaving>> junctions;
+                     FrameVector<Strand>& strands) {
+  std::pmr::map<int, FrameVector<Leaving>> junctions(strands.get_allocator().resource());
   for (int s = 0; s < static_cast<int>(strands.size()); ++s)
     for (int side = 0; side < 2; ++side)
       if (const int junction = strands[s].junction[side];
@@ -182,17 +184,18 @@ void mark_at_corners(const std::vector<RidgePoint>& points, const Sight& sight,
 }
 
 void mark_beside(const std::vector<RidgePoint>& points, const Sight& sight,
-                 std::vector<Strand>& strands) {
+                 FrameVector<Strand>& strands) {
   struct Seen {
     int strand;
     float across, curvature;
   };
-  std::map<int, std::vector<Seen>> lines;  // columns, or rows
+  const Memory memory = strands.get_allocator().resource();
+  std::pmr::map<int, FrameVector<Seen>> lines(memory);  // columns, or rows
   for (int s = 0; s < static_cast<int>(strands.size()); ++s)
     for (const int i : strands[s].points)
       lines[sight.along_rows ? points[i].row : points[i].column].push_back(
           {s, sight.along_rows ? points[i].u : points[i].v, points[i].curvature});
-  std::vector<int> outshone(strands.size(), 0);
+  FrameVector<int> outshone(strands.size(), 0, memory);
   for (const auto& [line, seen] : lines)
     for (const Seen& a : seen)
       outshone[a.strand] += std::any_of(seen.begin(), seen.end(), [&](const Seen& b) {
@@ -207,21 +210,21 @@ void mark_beside(const std::vector<RidgePoint>& points, const Sight& sight,
 
 }  // namespace
 
-std::vector<Strand> cut_at_junctions(const std::vector<RidgePoint>& points,
+FrameVector<Strand> cut_at_junctions(const std::vector<RidgePoint>& points,
                                      const std::vector<Chain>& chains, const Sight& sight,
-                                     double reach) {
-  std::vector<Place> places(points.size());
+                                     double reach, Memory memory) {
+  FrameVector<Place> places(points.size(), memory);
   for (int c = 0; c < static_cast<int>(chains.size()); ++c)
     for (int i = 0; i < static_cast<int>(chains[c].size()); ++i) places[chains[c][i]] = {c, i};
-  std::vector<Meeting> meetings;
+  FrameVector<Meeting> meetings(memory);
   for (const Chain& chain : chains)
     for (const bool last : {false, true})
       find_meetings(points, places, chain, last, reach, meetings);
-  std::vector<std::vector<int>> cuts(chains.size());
+  FrameVector<FrameVector<int>> cuts(chains.size(), memory);
   for (const Meeting& meeting : meetings)
     cuts[places[meeting.point].chain].push_back(places[meeting.point].position);
 
-  std::vector<Strand> strands;
+  FrameVector<Strand> strands(memory);
   const int near = 2 * static_cast<int>(std::ceil(reach));
   for (std::size_t c = 0; c < chains.size(); ++c) {
     const Chain& chain = chains[c];
@@ -229,8 +232,7 @@ std::vector<Strand> cut_at_junctions(const std::vector<RidgePoint>& points,
     std::sort(cuts[c].begin(), cuts[c].end());
     int begin = 0;
     const auto add = [&](int end) {
-      strands.push_back({});
-      strands.back().points.assign(chain.begin() + begin, chain.begin() + end);
+      strands.push_back({Chain(chain.begin() + begin, chain.begin() + end, memory)});
       begin = end;
     };
     for (const int cut : cuts[c])  // not so near to an end or another cut that only scraps come off
@@ -243,7 +245,7 @@ std::vector<Strand> cut_at_junctions(const std::vector<RidgePoint>& points,
 }
 
 void mark_reflections(const std::vector<RidgePoint>& points, const Sight& sight,
-                      std::vector<Strand>& strands) {
+                      FrameVector<Strand>& strands) {
   mark_at_corners(points, sight, strands);
   mark_beside(points, sight, strands);
 }

@@ -31,9 +31,9 @@ struct Strand {
 
 // Cuts the chains where an end of another lies within reach (px), or would after going on straight
 // for four times as far, and names the junctions.
-std::vector<Strand> cut_at_junctions(const std::vector<RidgePoint>& points,
+FrameVector<Strand> cut_at_junctions(const std::vector<RidgePoint>& points,
                                      const std::vector<Chain>& chains, const Sight& sight,
-                                     double reach);
+                                     double reach, Memory memory = heap());
 
 // A laser sheet is seen at most once a column, but for what hides and what
 // reflects. Of two strands in the same columns one is marked, if it hangs, that is, leads to
@@ -44,6 +44,6 @@ std::vector<Strand> cut_at_junctions(const std::vector<RidgePoint>& points,
 // - what runs beside a stronger one for most of its length is its reflection, also where that one
 // has a gap.
 void mark_reflections(const std::vector<RidgePoint>& points, const Sight& sight,
-                      std::vector<Strand>& strands);
+                      FrameVector<Strand>& strands);
 
 }  // namespace arcstart

@@ -1,6 +1,7 @@
 #include "services/extraction/ridge_tile.hpp"
 
 #include <algorithm>
+#include <bit>
 #include <cmath>
 #include <cstdint>
 #include <cstring>
@@ -183,15 +184,16 @@ struct Extrema {
   static constexpr int kCount = kRows * kFloats;
   float u[kCount], v[kCount], uu[kCount], uv[kCount], vv[kCount];
   float du[kCount], dv[kCount];  // from the pixel's centre to the extremum across the line; px
-  float nu[kCount], nv[kCount];  // across the line, of any length
+  float nu[kCount], nv[kCount];  // across the line, unit
   float curvature[kCount];
-  std::int32_t is_ridge[kCount];
+  std::uint8_t is_ridge[kCount];
 };
 
 // The eigenvalue of largest absolute value must be the negative one; t is the extremum's distance
 // along its eigenvector n (Steger 1998, Eq. 22).
 template <int kFloats>
 ARCSTART_INLINE_BODY void find_extrema(float least_curvature, Extrema<kFloats>& e) {
+  std::int32_t is_ridge[Extrema<kFloats>::kCount];
   for (int i = 0; i < Extrema<kFloats>::kCount; ++i) {
     const float half_trace = 0.5f * (e.uu[i] + e.vv[i]),
                 half_difference = 0.5f * (e.uu[i] - e.vv[i]);
@@ -204,31 +206,38 @@ ARCSTART_INLINE_BODY void find_extrema(float least_curvature, Extrema<kFloats>& 
     float nv = down ? -e.uv[i] : longer;
     // Curved alike in all directions: any normal will do.
     nv = longer > 0 ? nv : 1;
-    const float t = -(e.u[i] * nu + e.v[i] * nv) / (eigenvalue * (nu * nu + nv * nv));
+    const float square = nu * nu + nv * nv, scale = 1 / std::sqrt(square);
+    const float t = -(e.u[i] * nu + e.v[i] * nv) / (eigenvalue * square);
     const float du = t * nu, dv = t * nv;
-    e.is_ridge[i] = (half_trace <= 0) & (eigenvalue <= -least_curvature) & (std::abs(du) <= 0.5f) &
-                    (std::abs(dv) <= 0.5f);
+    is_ridge[i] = (half_trace <= 0) & (eigenvalue <= -least_curvature) & (std::abs(du) <= 0.5f) &
+                  (std::abs(dv) <= 0.5f);
     e.du[i] = du;
     e.dv[i] = dv;
-    e.nu[i] = nu;
-    e.nv[i] = nv;
+    e.nu[i] = nu * scale;
+    e.nv[i] = nv * scale;
     e.curvature[i] = -eigenvalue;
   }
+  for (int i = 0; i < Extrema<kFloats>::kCount; ++i)
+    e.is_ridge[i] = static_cast<std::uint8_t>(is_ridge[i]);
 }
 
 // rows: of the four, that belong to the tile.
 template <int kFloats>
 void add_points(const RidgeTile& tile, const Extrema<kFloats>& extrema, int column, int row,
                 int rows, std::vector<RidgePoint>& points) {
-  for (int at = 0; at < rows * kFloats; ++at) {
-    if (extrema.is_ridge[at] == 0) continue;
-    const int u = column + at % kFloats, v = row + at / kFloats;
-    if (u < tile.first_column || u > tile.last_column) continue;
-    const float nu = extrema.nu[at], nv = extrema.nv[at];
-    const float length = std::sqrt(nu * nu + nv * nv);
-    points.push_back({static_cast<float>(u) + extrema.du[at],
-                      static_cast<float>(v) + extrema.dv[at], nu / length, nv / length,
-                      extrema.curvature[at], u, v});
+  for (int begin = 0; begin < rows * kFloats; begin += 8) {
+    static_assert(std::endian::native == std::endian::little && kRows * kFloats % 8 == 0);
+    std::uint64_t flags;  // of eight pixels, a byte each
+    std::memcpy(&flags, extrema.is_ridge + begin, sizeof flags);
+    for (; flags != 0; flags &= flags - 1) {
+      const int at = begin + std::countr_zero(flags) / 8;
+      if (at >= rows * kFloats) break;
+      const int u = column + at % kFloats, v = row + at / kFloats;
+      if (u < tile.first_column || u > tile.last_column) continue;
+      points.push_back({static_cast<float>(u) + extrema.du[at],
+                        static_cast<float>(v) + extrema.dv[at], extrema.nu[at], extrema.nv[at],
+                        extrema.curvature[at], u, v});
+    }
   }
 }
 

@@ -22,7 +22,7 @@ constexpr float kWider = 0.6f, kNarrower = 1.2f, kNarrowerAndBright = 0.6f;
 
 using Weighted = std::pair<float, float>;  // value, weight
 
-float weighted_median(std::vector<Weighted>& values) {
+float weighted_median(FrameVector<Weighted>& values) {
   std::sort(values.begin(), values.end());
   double total = 0, sum = 0;
   for (const auto& [value, weight] : values) total += weight;
@@ -42,9 +42,9 @@ float offset_from_line(const Candidate& from, const Candidate& to) {
 
 }  // namespace
 
-void Selector::collect(const std::vector<RidgePoint>& points, const std::vector<Strand>& strands,
+void Selector::collect(const std::vector<RidgePoint>& points, const FrameVector<Strand>& strands,
                        bool along_rows) {
-  std::vector<Candidate> all;
+  FrameVector<Candidate> all(memory_);
   int lines = 0;
   for (int c = 0; c < static_cast<int>(strands.size()); ++c)
     for (const int i : strands[c].points) {
@@ -80,7 +80,7 @@ void Selector::collect(const std::vector<RidgePoint>& points, const std::vector<
   for (int line = 0; line < lines; ++line) line_begin_[line + 1] += line_begin_[line];
 
   // A strand's first and last candidate along the image, whatever way it was followed.
-  std::vector<int> first(strands.size(), -1), last(strands.size(), -1);
+  FrameVector<int> first(strands.size(), -1, memory_), last(strands.size(), -1, memory_);
   for (int i = 0; i < static_cast<int>(candidates_.size()); ++i) {
     const int strand = candidates_[i].strand;
     if (first[strand] < 0) first[strand] = i;
@@ -93,7 +93,7 @@ void Selector::collect(const std::vector<RidgePoint>& points, const std::vector<
 }
 
 void Selector::rate(const std::vector<float>& widths) {
-  std::vector<Weighted> values;
+  FrameVector<Weighted> values(memory_);
   for (const Candidate& c : candidates_) values.push_back({c.curvature, c.curvature});
   const float usual_curvature = weighted_median(values);
   values.clear();
@@ -127,10 +127,10 @@ float Selector::leaving_cost(const Candidate& from, const Candidate& to) const {
   return std::min(kBreakCost, 4 + 0.06f * gap + 6 * offset / (2 + 0.2f * gap));
 }
 
-std::vector<int> Selector::best_path() const {
+FrameVector<int> Selector::best_path() const {
   const int count = static_cast<int>(candidates_.size());
-  std::vector<float> score(count);
-  std::vector<int> previous(count, -1), strand_ends;
+  FrameVector<float> score(count, memory_);
+  FrameVector<int> previous(count, -1, memory_), strand_ends(memory_);
   int best = -1;  // of all in the lines before
   const int lines = static_cast<int>(line_begin_.size()) - 1;
   for (int line = 0; line < lines; ++line) {
@@ -156,14 +156,14 @@ std::vector<int> Selector::best_path() const {
       if (candidates_[i].ends_strand) strand_ends.push_back(i);
     }
   }
-  std::vector<int> path;
+  FrameVector<int> path(memory_);
   if (best >= 0 && score[best] > 0)
     for (int i = best; i >= 0; i = previous[i]) path.push_back(i);
   std::reverse(path.begin(), path.end());
   return path;
 }
 
-void Selector::split_path(const std::vector<int>& path, const SelectionSettings& settings,
+void Selector::split_path(const FrameVector<int>& path, const SelectionSettings& settings,
                           Selection& selection) {
   chosen_.assign(line_begin_.size() - 1, -1);
   for (std::size_t begin = 0; begin < path.size();) {
@@ -174,7 +174,7 @@ void Selector::split_path(const std::vector<int>& path, const SelectionSettings&
       ++end;
     }
     if (static_cast<int>(end - begin) >= settings.fewest_points) {
-      Branch branch;
+      Branch branch{FrameVector<int>(memory_)};
       for (std::size_t i = begin; i < end; ++i) {
         branch.points.push_back(candidates_[path[i]].point);
         chosen_[candidates_[path[i]].line] = path[i];
@@ -186,7 +186,7 @@ void Selector::split_path(const std::vector<int>& path, const SelectionSettings&
 }
 
 void Selector::add_second_candidates(const SelectionSettings& settings, Selection& selection) {
-  std::vector<std::pair<int, int>> seconds;  // strand, candidate
+  FrameVector<std::pair<int, int>> seconds(memory_);  // strand, candidate
   for (std::size_t line = 0; line + 1 < line_begin_.size(); ++line)
     for (int i = line_begin_[line]; i < line_begin_[line + 1]; ++i) {
       if (i == chosen_[line]) continue;
@@ -204,8 +204,7 @@ void Selector::add_second_candidates(const SelectionSettings& settings, Selectio
                settings.longest_hole)
       ++end;
     if (static_cast<int>(end - begin) >= settings.fewest_points) {
-      Branch branch;
-      branch.chosen = false;
+      Branch branch{FrameVector<int>(memory_), false};
       for (std::size_t i = begin; i < end; ++i)
         branch.points.push_back(candidates_[seconds[i].second].point);
       selection.branches.push_back(std::move(branch));
@@ -216,8 +215,9 @@ void Selector::add_second_candidates(const SelectionSettings& settings, Selectio
 
 void Selector::select(const std::vector<RidgePoint>& points, const std::vector<Chain>& chains,
                       const std::vector<float>& widths, const SelectionSettings& settings,
-                      Selection& selection) {
-  selection = {};
+                      Selection& selection, Memory memory) {
+  memory_ = memory;
+  selection.branches.clear();
   double across_image = 0;  // of the tangents, weighted with the curvature: > 0 where they run
                             // along the columns' order
   for (const Chain& chain : chains)
@@ -227,7 +227,8 @@ void Selector::select(const std::vector<RidgePoint>& points, const std::vector<C
   selection.along_rows = across_image < 0;
   const int lines = selection.along_rows ? settings.height : settings.width;
   const Sight sight{selection.along_rows, settings.margin, lines - 1 - settings.margin};
-  std::vector<Strand> strands = cut_at_junctions(points, chains, sight, settings.junction_reach);
+  FrameVector<Strand> strands =
+      cut_at_junctions(points, chains, sight, settings.junction_reach, memory);
   mark_reflections(points, sight, strands);
   collect(points, strands, selection.along_rows);
   rate(widths);

@@ -13,7 +13,7 @@ namespace arcstart {
 // One branch of the stripe: indices of points, along the image's columns, or rows where the stripe
 // runs down the image.
 struct Branch {
-  std::vector<int> points;
+  FrameVector<int> points;
   bool chosen =
       true;  // else a second candidate: a reflection, or something else that looks like a stripe
 };
@@ -43,10 +43,10 @@ class Selector {
   // a line costs, whatever the distance to the next, so that a step in the profile is followed and
   // a short detour is not. A chain beside a clearly stronger one for most of its length is its
   // reflection and is worth nothing, even where the stronger one has a gap. Nothing is put in where
-  // there is no point.
+  // there is no point. The branches lie in the memory given.
   void select(const std::vector<RidgePoint>& points, const std::vector<Chain>& chains,
               const std::vector<float>& widths, const SelectionSettings& settings,
-              Selection& selection);
+              Selection& selection, Memory memory = heap());
 
  private:
   struct Candidate {
@@ -57,15 +57,16 @@ class Selector {
     float curvature, worth;
     bool starts_strand, ends_strand, reflection;
   };
-  void collect(const std::vector<RidgePoint>& points, const std::vector<Strand>& strands,
+  void collect(const std::vector<RidgePoint>& points, const FrameVector<Strand>& strands,
                bool along_rows);
   void rate(const std::vector<float>& widths);
-  std::vector<int> best_path() const;
+  FrameVector<int> best_path() const;
   float leaving_cost(const Candidate& from, const Candidate& to) const;
-  void split_path(const std::vector<int>& path, const SelectionSettings& settings,
+  void split_path(const FrameVector<int>& path, const SelectionSettings& settings,
                   Selection& selection);
   void add_second_candidates(const SelectionSettings& settings, Selection& selection);
 
+  Memory memory_ = heap();
   std::vector<Candidate> candidates_;  // by line, the strongest of a line first
   std::vector<int> line_begin_;
   std::vector<int> chosen_;  // of each line, -1 for none

@@ -15,6 +15,7 @@ constexpr double kLeastSigma = 1.2, kLargestSigma = 12;  // px, followed
 constexpr double kFirstLook = 2.5, kSecondLook = 6;      // px, where no scale is known
 constexpr double kLargestOfFirst = 4.5;  // px; a sigma wanted above it the first look cannot judge
 constexpr double kWidestWhite = 4;       // px; nor a stripe with a white top wider than this
+constexpr double kSigmaStep = 1.0 / 32;  // px, of the sigma followed: kernels need not be made anew
 constexpr double kFollowing = 0.2;       // share of the difference taken up by each image
 constexpr double kNearEnough = 0.1;      // share of sigma that makes no difference
 // Standard deviation of a second derivative under white noise is 0.2443 noise / sigma^3 (3 / (16
@@ -29,7 +30,7 @@ double white_width(const GreyImage& image) {
   return static_cast<double>(white) / std::max(image.width, image.height);
 }
 
-double median(std::vector<float>& values) {
+double median(FrameVector<float>& values) {
   if (values.empty()) return 0;
   const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
   std::nth_element(values.begin(), middle, values.end());
@@ -39,6 +40,9 @@ double median(std::vector<float>& values) {
 }  // namespace
 
 void StripeExtractor::look_at(const GreyImage& image, double sigma) {
+  chains_.clear();
+  selection_.branches.clear();
+  memory_.take_back();
   if (kernels_.sigma != sigma) kernels_ = gaussian_kernels(sigma);
   used_sigma_ = sigma;
   const double strong =
@@ -46,9 +50,10 @@ void StripeExtractor::look_at(const GreyImage& image, double sigma) {
                kNoiseCurvature * noise_ / (sigma * sigma * sigma));
   detector_.detect_lines(image, kernels_, settings_.weakest_share * strong, strong, border(),
                          points_);
-  linker_.link(points_, {strong, settings_.fewest_centres}, chains_);
+  linker_.link(points_, {strong, settings_.fewest_centres}, chains_, &memory_);
   widths_.assign(points_.size(), 0);
-  for (const Chain& chain : chains_) measure_widths(image, points_, chain, sigma, noise_, widths_);
+  for (const Chain& chain : chains_)
+    measure_widths(image, points_, chain, sigma, noise_, widths_, &memory_);
   SelectionSettings selection;
   selection.longest_hole = settings_.longest_hole_px;
   selection.fewest_points = settings_.fewest_centres;
@@ -56,7 +61,7 @@ void StripeExtractor::look_at(const GreyImage& image, double sigma) {
   selection.height = image.height;
   selection.margin = border();
   selection.junction_reach = 3 * sigma;
-  selector_.select(points_, chains_, widths_, selection, selection_);
+  selector_.select(points_, chains_, widths_, selection, selection_, &memory_);
 }
 
 double StripeExtractor::chosen_strength() const {
@@ -68,8 +73,8 @@ double StripeExtractor::chosen_strength() const {
   return sum;
 }
 
-double StripeExtractor::wanted_sigma() const {
-  std::vector<float> widths;
+double StripeExtractor::wanted_sigma() {
+  FrameVector<float> widths(&memory_);
   for (const Branch& branch : selection_.branches)
     if (branch.chosen)
       for (const int i : branch.points)
@@ -106,9 +111,9 @@ void StripeExtractor::follow_scale() {
 // The law knows white noise alone; speckle and the surface's grain usually scatter the centres
 // more. By how many times: from the distances of centres from the chord between two farther along,
 // at which their errors no longer hang together.
-double StripeExtractor::scatter_factor(double sigma) const {
+double StripeExtractor::scatter_factor(double sigma) {
   const auto lag = static_cast<std::size_t>(std::max(6.0, std::ceil(4 * sigma)));
-  std::vector<float> ratios;
+  FrameVector<float> ratios(&memory_);
   for (const Branch& branch : selection_.branches) {
     if (!branch.chosen) continue;
     for (std::size_t i = lag; i + lag < branch.points.size(); ++i) {
@@ -198,7 +203,7 @@ void StripeExtractor::extract(const GreyImage& image, Stripe& stripe) {
   else if (sigma_ == 0)
     find_scale(image);
   else
-    look_at(image, sigma_);
+    look_at(image, std::round(sigma_ / kSigmaStep) * kSigmaStep);
   describe(image, stripe);
   stripe.empty = stripe.centres.empty() ? "no stripe found" : "";
   if (follows && sigma_ > 0) follow_scale();

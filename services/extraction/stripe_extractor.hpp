@@ -37,6 +37,8 @@ struct Stripe {
 class StripeExtractor {
  public:
   explicit StripeExtractor(const ExtractionSettings& settings) : settings_(settings) {}
+  StripeExtractor(const StripeExtractor&) = delete;
+  StripeExtractor& operator=(const StripeExtractor&) = delete;
 
   Stripe extract(const GreyImage& image);
   void extract(const GreyImage& image, Stripe& stripe);  // takes no memory that it has already
@@ -51,8 +53,8 @@ class StripeExtractor {
   void find_scale(const GreyImage& image);
   void follow_scale();
   double chosen_strength() const;
-  double wanted_sigma() const;  // from the widths seen; px, 0 where too few
-  double scatter_factor(double sigma) const;
+  double wanted_sigma();  // from the widths seen; px, 0 where too few
+  double scatter_factor(double sigma);
   int border() const;  // px, in which nothing is looked for
   void set_out(const GreyImage& image, const Branch& branch, double scatter);
   void describe(const GreyImage& image, Stripe& stripe);
@@ -60,7 +62,8 @@ class StripeExtractor {
   ExtractionSettings settings_;
   double sigma_ = 0;  // followed; 0: not known yet
 
-  // Of the image looked at last.
+  // Of the image looked at last. The memory is given up last: chains and branches lie in it.
+  FrameMemory memory_;
   double noise_ = 0;
   double used_sigma_ = 0;
   RidgeDetector detector_;

@@ -60,7 +60,7 @@ double crossing(const float* profile, int size, int at, int step, double level) 
 
 // Half the width at half the height is 1.177 standard deviations of a Gaussian and sqrt(3) of a
 // bar, to which a clipped Gaussian comes the nearer, the more of it is clipped.
-double profile_width(const std::vector<float>& raw, double sigma, double noise) {
+double profile_width(std::span<const float> raw, double sigma, double noise) {
   // The sides' level: the median of the outer quarter of each, joined by a line.
   const int size = static_cast<int>(raw.size()), reach = size / 2, quarter = std::max(2, reach / 4);
   std::array<float, kMostReach> side;
@@ -141,11 +141,11 @@ double noise_of(const GreyImage& image) {
 }
 
 void measure_widths(const GreyImage& image, const std::vector<RidgePoint>& points,
-                    const std::vector<int>& chain, double sigma, double noise,
-                    std::vector<float>& widths) {
+                    std::span<const int> chain, double sigma, double noise,
+                    std::vector<float>& widths, Memory memory) {
   const int reach = std::min(kMostReach, static_cast<int>(std::ceil(5 * sigma)) + 2);
   const int size = 2 * reach + 1, count = static_cast<int>(chain.size());
-  std::vector<float> profiles(static_cast<std::size_t>(size) * count), mean(size);
+  FrameVector<float> profiles(static_cast<std::size_t>(size) * count, memory), mean(size, memory);
   float sense = 1;  // normals have none of their own: neighbours' are made alike
   for (int i = 0; i < count; ++i) {
     const RidgePoint& p = points[chain[i]];

@@ -2,8 +2,10 @@
 // centre.
 #pragma once
 
+#include <span>
 #include <vector>
 
+#include "services/extraction/frame_memory.hpp"
 #include "services/extraction/grey_image.hpp"
 #include "services/extraction/ridge.hpp"
 
@@ -20,8 +22,8 @@ double noise_of(const GreyImage& image);
 // clipped at white is allowed for. The profile is the mean over the neighbours along the chain, so
 // that speckle does not cut it in two. sigma: of the kernels, sets how far away the sides are.
 void measure_widths(const GreyImage& image, const std::vector<RidgePoint>& points,
-                    const std::vector<int>& chain, double sigma, double noise,
-                    std::vector<float>& widths);
+                    std::span<const int> chain, double sigma, double noise,
+                    std::vector<float>& widths, Memory memory = heap());
 
 // White-noise law of the centre: 0.1995 noise (w^2 + s^2)^(3/2) / (A w s^2), where A w / (w^2 +
 // s^2)^(3/2) is the curvature.

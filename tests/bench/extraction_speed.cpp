@@ -97,7 +97,7 @@ void bench_speed(int rounds, nlohmann::json& json) {
       {"read", [&](const cv::Mat& grey) { seen = read_once(grey); }},
       {"plain", [&](const cv::Mat& grey) { plain.detect(grey, kernels, least, points); }},
       {"ridge", [&](const cv::Mat& grey) { fast.detect(view_of(grey), kernels, least, points); }},
-      {"with_selection", [&](const cv::Mat& grey) { stripe = selecting.extract(view_of(grey)); }},
+      {"with_selection", [&](const cv::Mat& grey) { selecting.extract(view_of(grey), stripe); }},
       {"centroid", [&](const cv::Mat& grey) { columns.centroid(grey, kSigma, centres); }},
       {"gaussian_fit", [&](const cv::Mat& grey) { columns.gaussian_fit(grey, kSigma, centres); }},
       {"fir", [&](const cv::Mat& grey) { columns.finite_impulse(grey, kSigma, centres); }}};
@@ -125,7 +125,7 @@ void bench_speed(int rounds, nlohmann::json& json) {
           times[i][m].ms.push_back(cpu_ms() - begin);
         }
         const double begin = cpu_ms();
-        stripe = service.extract(view_of(row.images[i]));
+        service.extract(view_of(row.images[i]), stripe);
         times[i].back().ms.push_back(cpu_ms() - begin);
       }
       active += share * fast.active_share();

@@ -44,7 +44,7 @@ class Scene {
         return ka < kb;
       });
     const Sight sight{along_rows, 0, 899};
-    std::vector<Strand> strands = cut_at_junctions(points, chains, sight, 6);
+    FrameVector<Strand> strands = cut_at_junctions(points, chains, sight, 6);
     mark_reflections(points, sight, strands);
     std::vector<double> share(count_, 0);
     std::size_t all = 0;
@@ -127,7 +127,7 @@ TEST_CASE("along rows it is the same") {
 }
 
 TEST_CASE("nothing gives nothing") {
-  std::vector<Strand> strands = cut_at_junctions({}, {}, Sight{}, 6);
+  FrameVector<Strand> strands = cut_at_junctions({}, {}, Sight{}, 6);
   CHECK(strands.empty());
   mark_reflections({}, Sight{}, strands);
 }
