@@ -29,7 +29,7 @@ namespace fs = std::filesystem;
 struct Options {
   std::vector<std::string> images;
   std::string csv, off, channel, picture, cell;
-  bool all = false;
+  bool all = false, as_found = false;
   double sigma_px = -1;  // below 0: not given
 };
 
@@ -129,6 +129,7 @@ int run(const Options& options) {
   if (!options.cell.empty())
     settings = Configuration::from_file(options.cell).read<ExtractionSettings>("extraction");
   if (options.sigma_px >= 0) settings.sigma_px = options.sigma_px;
+  if (options.as_found) settings.smooth_course = false;
 
   std::vector<std::string> files;
   std::ofstream csv;
@@ -195,6 +196,9 @@ void add_extract_command(CLI::App& parent, int& exit_code) {
   command->add_flag(
       "--all", options->all,
       "Second candidates (reflections and the like) too, with a column rank: 0 chosen, 1 second");
+  command->add_flag("--as-found", options->as_found,
+                    "Each centre where its own pixel's neighbourhood says, not fitted along the "
+                    "stripe");
   command->add_option("--off", options->off, "The same view with the laser off, to be subtracted")
       ->check(CLI::ExistingFile);
   command

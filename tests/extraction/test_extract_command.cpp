@@ -207,6 +207,8 @@ TEST_CASE("extract's exit codes: 1 nothing found, 2 bad input, each with one lin
   CHECK(type({good, "--channel", "x"}).exit_code == 2);
   CHECK(type({good, "--sigma", "0.3"}).exit_code == 2);
   CHECK(type({good, "--sigma", "2.5"}).exit_code == 0);
+  CHECK(type({good, "--as-found"}).exit_code == 0);
+  CHECK(type({good, "--as-found"}).out != type({good}).out);
   CHECK(type({"--help"}).exit_code == 0);
   // One bad image among good ones: the good ones are done, and the exit tells of the bad.
   const Outcome mixed = type({good, folder / "text.png"});
