@@ -96,13 +96,11 @@ void Course::add_up(const std::vector<CoursePoint>& points) {
 }
 
 Course::Fit Course::fit_parabola(const std::vector<CoursePoint>& points, std::size_t at,
-                                 double reach) const {
+                                 double reach, Window& window) const {
   const double here = points[at].along;
-  const auto before = [](const CoursePoint& p, double along) { return p.along < along; };
-  const auto begin = std::lower_bound(points.begin(), points.end(), here - reach, before);
-  const auto end = std::lower_bound(begin, points.end(), here + reach, before);
-  const Sums &low = sums_[static_cast<std::size_t>(begin - points.begin())],
-             &high = sums_[static_cast<std::size_t>(end - points.begin())];
+  while (points[window.begin].along < here - reach) ++window.begin;
+  while (window.end < points.size() && points[window.end].along < here + reach) ++window.end;
+  const Sums &low = sums_[window.begin], &high = sums_[window.end];
   const double count = high.x[0] - low.x[0];
   if (count < 8) return {};
   // Sums of powers of (x - shift) / reach, from those of x.
@@ -168,8 +166,9 @@ void Course::fit_all(const std::vector<CoursePoint>& points, double sigma) {
   add_up(points);
   misfits_.clear();
   usual_.clear();
+  std::array<Window, kReach.size()> windows;
   for (std::size_t i = 0; i < points.size(); ++i) {
-    usual_.push_back(fit_parabola(points, i, kReach[kUsual] * sigma));
+    usual_.push_back(fit_parabola(points, i, kReach[kUsual] * sigma, windows[kUsual]));
     if (usual_.back().valid) misfits_.push_back(usual_.back().misfit);
   }
   if (misfits_.empty()) return;
@@ -187,9 +186,10 @@ void Course::fit_all(const std::vector<CoursePoint>& points, double sigma) {
     for (std::size_t level = 0; level < levels; ++level) {
       const bool last = level + 1 == levels;
       const Fit wide = fit;
-      fit = level == kUsual              ? usual_[i]
-            : level + 1 == kReach.size() ? fit_quartic(points, i, kReach[level] * sigma)
-                                         : fit_parabola(points, i, kReach[level] * sigma);
+      fit = level == kUsual ? usual_[i]
+            : level + 1 == kReach.size()
+                ? fit_quartic(points, i, kReach[level] * sigma)
+                : fit_parabola(points, i, kReach[level] * sigma, windows[level]);
       if (!fit.valid && points[i].at_border) fit = wide;
       if (fit.valid && (last || fit.misfit <= most)) break;
     }

@@ -40,7 +40,12 @@ class Course {
   };
   void fit_all(const std::vector<CoursePoint>& points, double sigma);
   void add_up(const std::vector<CoursePoint>& points);
-  Fit fit_parabola(const std::vector<CoursePoint>& points, std::size_t at, double reach) const;
+  struct Window {
+    std::size_t begin = 0, end = 0;
+  };
+  // window: of the point before, if any.
+  Fit fit_parabola(const std::vector<CoursePoint>& points, std::size_t at, double reach,
+                   Window& window) const;
   Fit fit_quartic(const std::vector<CoursePoint>& points, std::size_t at, double reach) const;
 
   double sigma_ = 0, origin_along_ = 0, origin_across_ = 0;

@@ -145,7 +145,8 @@ void measure_widths(const GreyImage& image, const std::vector<RidgePoint>& point
                     std::vector<float>& widths, Memory memory) {
   const int reach = std::min(kMostReach, static_cast<int>(std::ceil(5 * sigma)) + 2);
   const int size = 2 * reach + 1, count = static_cast<int>(chain.size());
-  FrameVector<float> profiles(static_cast<std::size_t>(size) * count, memory), mean(size, memory);
+  FrameVector<float> profiles(static_cast<std::size_t>(size) * count, memory), mean(size, memory),
+      sum(size, 0.0f, memory);
   float sense = 1;  // normals have none of their own: neighbours' are made alike
   for (int i = 0; i < count; ++i) {
     const RidgePoint& p = points[chain[i]];
@@ -156,12 +157,16 @@ void measure_widths(const GreyImage& image, const std::vector<RidgePoint>& point
     sample_profile(image, p.u, p.v, sense * p.normal_u, sense * p.normal_v, reach,
                    &profiles[static_cast<std::size_t>(i) * size]);
   }
+  const auto add = [&](int i, float sign) {
+    const float* profile = &profiles[static_cast<std::size_t>(i) * size];
+    for (int k = 0; k < size; ++k) sum[k] += sign * profile[k];
+  };
+  for (int i = 0; i < std::min(kNeighbours, count); ++i) add(i, 1);
   for (int i = 0; i < count; ++i) {
+    if (i + kNeighbours < count) add(i + kNeighbours, 1);
+    if (i - kNeighbours > 0) add(i - kNeighbours - 1, -1);
     const int begin = std::max(0, i - kNeighbours), end = std::min(count, i + kNeighbours + 1);
-    std::fill(mean.begin(), mean.end(), 0.0f);
-    for (int j = begin; j < end; ++j)
-      for (int k = 0; k < size; ++k) mean[k] += profiles[j * size + k];
-    for (float& grey : mean) grey /= static_cast<float>(end - begin);
+    for (int k = 0; k < size; ++k) mean[k] = sum[k] / static_cast<float>(end - begin);
     widths[chain[i]] = static_cast<float>(profile_width(mean, sigma, noise));
   }
 }
