@@ -135,30 +135,56 @@ SeamResult::Alternative as_alternative(const Joint& joint, std::string reason) {
   return {"tee", joint.score, joint.start(), joint.end(), std::move(reason)};
 }
 
-void answer(SeamResult& result, const ScanCloud& scan, const Joint& joint,
+// Where it starts and ends, and how sure that is.
+void set_ends(SeamResult& result, const ScanCloud& scan, const Joint& joint, const Scales& scales,
+              const SeamFindingSettings& settings) {
+  SeamEnd start, end;
+  const EndSearch search{scales.spacing, scales.tolerance,
+                         settings.start_rule == "edges" ? settings.edge_shortening_px : 0};
+  start = find_end(scan, joint.plates, joint.line, joint.course, SeamSide::kBegin, search);
+  end = find_end(scan, joint.plates, joint.line, joint.course, SeamSide::kEnd, search);
+  if (settings.start_rule == "stripe") start.along = joint.course.begin;
+  if (settings.start_rule == "centroid")
+    start.along =
+        centroid_of_first(scan, joint.plates, joint.line, joint.course, settings.start_points);
+  result.start = joint.line.at(start.along);
+  result.end = joint.line.at(end.along);
+  result.start_visibility = start.visibility;
+  result.end_visibility = end.visibility;
+  std::array<PlaneAccuracy, 2> accuracies;
+  for (int j = 0; j < 2; ++j)
+    accuracies[j] = plane_accuracy(scan, joint.plates[j], joint.plates[1 - j], joint.line,
+                                   settings.refit_distance_mm, scales.spacing);
+  if (settings.start_rule == "edges")
+    result.accuracy = seam_accuracy(joint.plates, joint.line, accuracies, start, end);
+  if (!start.by_edges)
+    result.remark += "no edge was crossed at the start, it is known to half a stripe spacing; ";
+  if (!end.by_edges && end.visibility != EndVisibility::kOutside)
+    result.remark += "no edge was crossed at the end, it is known to half a stripe spacing; ";
+}
+
+void answer(SeamResult& result, const ScanCloud& scan, const Joint& joint, const Scales& scales,
             const SeamFindingSettings& settings) {
   result.verdict = SeamResult::Verdict::kFound;
   result.joint_type = "tee";
   result.direction = joint.line.direction;
-  result.start = joint.start();
-  result.end = joint.end();
-  if (settings.start_rule == "centroid")
-    result.start = joint.line.at(
-        centroid_of_first(scan, joint.plates, joint.line, joint.course, settings.start_points));
   result.angle = joint.angle;
   for (int j = 0; j < 2; ++j) {
     result.normals[j] = joint.plates[j].plane.normal;
     result.plates[j] = joint.plates[j].points;
   }
-  result.ends_outside = joint.course.ends_outside;
   if (joint.course.missing_before > 0)
     result.remark +=
         fmt::format("{} stripes right before the start are missing; ", joint.course.missing_before);
   if (joint.course.missing_after > 0)
     result.remark +=
         fmt::format("{} stripes right behind the end are missing; ", joint.course.missing_after);
-  if (joint.course.ends_outside) result.remark += "the seam runs on where the scan ends; ";
-  result.remark += "not determined: deviations, visibility of the ends, gap, course, torch pose";
+  set_ends(result, scan, joint, scales, settings);
+  if (result.end_visibility == EndVisibility::kOutside)
+    result.remark += "the seam runs on where the scan ends; ";
+  if (result.end_visibility == EndVisibility::kHidden)
+    result.remark += "the end is hidden, the seam reaches at least so far; ";
+  result.remark += "not determined: systematic deviations, gap, course, torch pose";
 }
 
 }  // namespace
@@ -252,7 +278,9 @@ SeamResult find_seam(const ScanCloud& scan, const Background& background,
                                 settings.ambiguity_ratio);
     return result;
   }
-  answer(result, scan, best, settings);
+  answer(result, scan, best, scales, settings);
+  if (result.start_visibility == EndVisibility::kHidden)
+    result.remark = "the start is hidden: the seam reaches at least from here; " + result.remark;
   return result;
 }
 

@@ -6,6 +6,7 @@
 #include <string>
 #include <vector>
 
+#include "services/seam_finding/accuracy.hpp"
 #include "services/seam_finding/background.hpp"
 #include "services/seam_finding/seam_finding_settings.hpp"
 
@@ -23,8 +24,10 @@ struct SeamResult {
   Eigen::Vector3d direction = Eigen::Vector3d::Zero();  // unit, along the search
   std::array<Eigen::Vector3d, 2> normals = {Eigen::Vector3d::Zero(),
                                             Eigen::Vector3d::Zero()};  // out of the metal
-  double angle = 0;                        // between the plates' open sides
-  bool ends_outside = false;               // the seam runs on where the scan ends
+  double angle = 0;  // between the plates' open sides
+  EndVisibility start_visibility = EndVisibility::kNotDetermined;
+  EndVisibility end_visibility = EndVisibility::kNotDetermined;
+  std::optional<SeamAccuracy> accuracy;    // nothing where it was not determined
   std::array<std::vector<int>, 2> plates;  // indices of the plates' points
 
   // Other seams, and where ambiguous all of them, best first.

@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cmath>
 
 namespace arcstart {
 namespace {
@@ -11,6 +12,25 @@ constexpr std::int64_t kLongestScan = 100'000;  // frames: a seq beyond is damag
 constexpr double kFarthest = 1e5;               // mm: a point farther away is damage, too
 
 void copy(const Eigen::Vector3d& from, double to[3]) { std::copy(from.begin(), from.end(), to); }
+
+void copy(const Eigen::Matrix3d& from, double to[3][3]) {
+  for (int row = 0; row < 3; ++row)
+    for (int column = 0; column < 3; ++column) to[row][column] = from(row, column);
+}
+
+std::int8_t visibility_of(EndVisibility visibility) {
+  switch (visibility) {
+    case EndVisibility::kSeen:
+      return seam_t::SEEN;
+    case EndVisibility::kHidden:
+      return seam_t::HIDDEN;
+    case EndVisibility::kOutside:
+      return seam_t::OUTSIDE;
+    case EndVisibility::kNotDetermined:
+      break;
+  }
+  return seam_t::NOT_DETERMINED;
+}
 
 template <std::size_t N>
 void fill(double (&matrix)[N][N], double value) {
@@ -51,6 +71,20 @@ ScanStripe::Seen seen_in(const profile_t& profile) {
   const bool nothing = profile.empty.starts_with("stripe empty: no ") ||
                        profile.empty == "no point within the working range";
   return nothing ? ScanStripe::Seen::kEmpty : ScanStripe::Seen::kMissing;
+}
+
+// Between neighbouring centres of the stripe there, which are a pixel apart: from the neighbour
+// that down-sampling left.
+float step_at(const profile_t& profile, int i) {
+  for (const int j : {i - 1, i + 1}) {
+    if (j < 0 || j >= profile.count || profile.segment[j] != profile.segment[i]) continue;
+    const float pixels =
+        std::max(std::abs(profile.u[j] - profile.u[i]), std::abs(profile.v[j] - profile.v[i]));
+    const float way = std::hypot(profile.x[j] - profile.x[i], profile.y[j] - profile.y[i],
+                                 profile.z[j] - profile.z[i]);
+    if (pixels > 0.5f) return way / pixels;
+  }
+  return 0;
 }
 
 int missing_of(const ScanCloud& cloud) {
@@ -107,7 +141,16 @@ void fill_in(seam_t& seam, const SeamResult& result) {
   copy(result.normals[0], seam.normals[0]);
   copy(result.normals[1], seam.normals[1]);
   seam.angle = result.angle;
-  if (result.ends_outside) seam.end_visibility = seam_t::OUTSIDE;
+  seam.start_visibility = visibility_of(result.start_visibility);
+  seam.end_visibility = visibility_of(result.end_visibility);
+  if (result.accuracy) {
+    copy(result.accuracy->start, seam.start_covariance);
+    copy(result.accuracy->end, seam.end_covariance);
+    seam.direction_deviation = result.accuracy->direction;
+    seam.angle_deviation = result.accuracy->angle;
+    std::copy(result.accuracy->normals.begin(), result.accuracy->normals.end(),
+              seam.normal_deviations);
+  }
 }
 
 std::string ScanBalance::losses() const {
@@ -149,7 +192,7 @@ ScanCloud cloud_of(const CollectedScan& scan) {
       cloud.points.push_back(point);
       cloud.origins.push_back({stripe, profile.segment[i],
                                profile.segment_end[i] == profile_t::SEGMENT_END,
-                               profile.deviation[i]});
+                               profile.deviation[i], step_at(profile, i)});
     }
     end_stripe(cloud, seen_in(profile), Eigen::Map<const Eigen::Vector3d>(profile.camera_centre),
                Eigen::Map<const Eigen::Vector3d>(profile.tool_position));

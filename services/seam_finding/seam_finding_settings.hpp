@@ -31,11 +31,14 @@ struct SeamFindingSettings {
   double outlier_deviations =
       3;  // a point is dropped whose mean distance to them is so far above the plate's mean
 
-  // Start. `stripe`: half-way between the first stripe that crosses both plates and the one before
-  // it. `centroid`: the paper's way, the centroid of the first x points of both plates along the
-  // seam.
-  std::string start_rule = "stripe";
+  // Start. `edges`: from the edges of both plates, each drawn through the places where stripes
+  // leave it, at their full resolution. `stripe`: half-way between the first stripe that crosses
+  // both plates and the one before it. `centroid`: the paper's way, the centroid of the first x
+  // points of both plates along the seam.
+  std::string start_rule = "edges";
   int start_points = 10;  // x
+  // The detector's kernel ends a stripe so many pixels before the edge of what it lies on.
+  double edge_shortening_px = 2.5;
 
   // When to refuse.
   int stripes_min = 5;  // with points of both plates at the seam
@@ -63,8 +66,9 @@ struct SeamFindingSettings {
     visitor("refit_distance_mm", refit_distance_mm, between(5, 500));
     visitor("outlier_neighbours", outlier_neighbours, between(0, 100));
     visitor("outlier_deviations", outlier_deviations, between(0.5, 20));
-    visitor("start_rule", start_rule, one_of({"stripe", "centroid"}));
+    visitor("start_rule", start_rule, one_of({"edges", "stripe", "centroid"}));
     visitor("start_points", start_points, between(1, 1000));
+    visitor("edge_shortening_px", edge_shortening_px, between(0, 20));
     visitor("stripes_min", stripes_min, between(3, 1000));
     visitor("ambiguity_ratio", ambiguity_ratio, between(1, 10));
     visitor("lost_share_max", lost_share_max, between(0, 0.5));

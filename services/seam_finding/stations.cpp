@@ -22,12 +22,6 @@ struct Sight {
   double nearest = kInfinity;           // of them
 };
 
-// In a plate, away from the seam: toward the side that the other plate faces.
-Eigen::Vector3d away_from_seam(const Plate& plate, const Plate& other) {
-  const Eigen::Vector3d& n = plate.plane.normal;
-  return (other.plane.normal - other.plane.normal.dot(n) * n).normalized();
-}
-
 std::vector<Sight> sights_of(const ScanCloud& cloud, const Plate& plate, const Plate& other,
                              const Line& line, double tolerance) {
   const Eigen::Vector3d away = away_from_seam(plate, other);
@@ -181,6 +175,11 @@ Stations piece_stations(const ScanCloud& cloud, const std::array<Plate, 2>& plat
 }
 
 }  // namespace
+
+Eigen::Vector3d away_from_seam(const Plate& plate, const Plate& other) {
+  const Eigen::Vector3d& n = plate.plane.normal;
+  return (other.plane.normal - other.plane.normal.dot(n) * n).normalized();
+}
 
 Stations stations_along(const ScanCloud& cloud, const std::array<Plate, 2>& plates,
                         const Line& line, const CourseSearch& search) {

@@ -22,6 +22,9 @@ struct CourseSearch {
   double bridge = 20;      // a seam goes on behind an interruption no longer than this; mm
 };
 
+// In a plate, away from the seam: toward the side that the other plate faces. Unit.
+Eigen::Vector3d away_from_seam(const Plate& plate, const Plate& other);
+
 // A stripe that crosses the line, or without stripes a piece of the line.
 struct Station {
   double along = 0;  // where it crosses; mm

@@ -1,0 +1,154 @@
+#include "services/seam_finding/edges.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <vector>
+
+namespace arcstart {
+namespace {
+
+constexpr double kSquareCut =
+    0.01;                        // standard deviation of an edge's slope; mm along for each mm away
+constexpr double kAgree = 0.35;  // places on one edge, along the seam; mm
+constexpr double kAgreeSlope = 0.02;  // and so much more for each mm between them
+constexpr double kLeastNoise = 0.04;  // of a place along the seam, standard deviation; mm
+constexpr int kPriorPlaces = 2;       // with that noise, in the estimate of the noise
+constexpr double kFloor = 0.015;      // of an edge, whatever the number of its places; mm
+constexpr double kOutlier = 3;        // standard deviations
+constexpr double kLeastSlant = 0.05;  // of a stripe, mm along the seam for each mm of its length
+
+// Where a stripe leaves the plate.
+struct Place {
+  double along = 0, away = 0;  // mm
+  double deviation = 0;        // of along, for want of resolution alone; mm
+  bool occluded = false;
+};
+
+// A stripe's points on the plate, on its open side, in the stripe's order.
+std::vector<std::vector<int>> points_by_stripe(const ScanCloud& cloud, const Plate& plate,
+                                               const Line& line, const Eigen::Vector3d& away,
+                                               double tolerance) {
+  std::vector<std::vector<int>> stripes(cloud.stripes.size());
+  for (const int i : plate.points)
+    if (away.dot(cloud.points[i] - line.point) > tolerance &&
+        std::abs(plate.plane.signed_distance(cloud.points[i])) <= tolerance)
+      stripes[cloud.origins[i].stripe].push_back(i);
+  return stripes;
+}
+
+std::optional<Place> place_of(const ScanCloud& cloud, const std::vector<int>& run,
+                              const Plate& plate, const Line& line, const Eigen::Vector3d& away,
+                              SeamSide side, const EdgeSearch& search) {
+  if (run.size() < 3) return std::nullopt;
+  const bool rising = line.along(cloud.points[run.back()]) > line.along(cloud.points[run.front()]);
+  const bool at_back = rising == (side == SeamSide::kEnd);
+  const int last = at_back ? run.back() : run.front();
+  const int before = at_back ? run[run.size() - 2] : run[1];
+  const int beyond = at_back ? last + 1 : last - 1;
+  const ScanStripe& stripe = cloud.stripes[cloud.origins[last].stripe];
+  const bool more = beyond >= stripe.first && beyond < stripe.first + stripe.count;
+
+  const Eigen::Vector3d way = cloud.points[last] - cloud.points[before];
+  if (!(way.norm() > 1e-6)) return std::nullopt;
+  const Eigen::Vector3d direction = way.normalized();
+  const double slant = std::abs(direction.dot(line.direction));
+  if (slant < kLeastSlant) return std::nullopt;
+  Eigen::Vector3d point = cloud.points[last];
+  Place place;
+  if (cloud.origins[last].segment_end) {
+    const double step = cloud.origins[last].step;
+    point += search.shortening_px * step * direction;
+    place.deviation = slant * step / std::sqrt(12.0);
+  } else if (more && cloud.origins[beyond].segment == cloud.origins[last].segment) {
+    // Within a segment, between two of the points that are left of it.
+    const double gap = (cloud.points[beyond] - point).norm();
+    point += gap / 2 * direction;
+    place.deviation = slant * gap / std::sqrt(12.0);
+  } else {
+    return std::nullopt;
+  }
+  place.along = line.along(point);
+  place.away = away.dot(point - line.point);
+  place.occluded = more && plate.plane.signed_distance(cloud.points[beyond]) > 2 * search.tolerance;
+  return place;
+}
+
+double variance_of(const Place& place, double noise) {
+  return noise * noise + place.deviation * place.deviation;
+}
+
+// along = at_seam + slope * away by weighted least squares, the slope held near zero.
+struct EdgeFit {
+  double at_seam = 0, slope = 0, variance = 0;
+};
+EdgeFit fit_edge(const std::vector<Place>& places, double noise) {
+  double w = 0, r = 0, t = 0, rr = 0, rt = 0;
+  for (const Place& place : places) {
+    const double weight = 1 / variance_of(place, noise);
+    w += weight, r += weight * place.away, t += weight * place.along;
+    rr += weight * place.away * place.away, rt += weight * place.away * place.along;
+  }
+  rr += 1 / (kSquareCut * kSquareCut);
+  const double determinant = w * rr - r * r;
+  return {(t * rr - r * rt) / determinant, (w * rt - r * t) / determinant, rr / determinant};
+}
+
+std::vector<Place> largest_agreement(const std::vector<Place>& places, const EdgeSearch& search) {
+  std::vector<Place> best;
+  double most = 0;
+  for (const Place& one : places) {
+    if (std::abs(one.along - search.expected) > search.reach) continue;
+    std::vector<Place> together;
+    double weight = 0;
+    for (const Place& other : places) {
+      const double allowed = kAgree + kAgreeSlope * std::abs(one.away - other.away) +
+                             2 * (one.deviation + other.deviation);
+      if (std::abs(one.along - other.along) > allowed) continue;
+      together.push_back(other);
+      weight += kAgree / (kAgree + other.deviation);
+    }
+    if (weight > most) most = weight, best = std::move(together);
+  }
+  return best;
+}
+
+}  // namespace
+
+std::optional<PlateEdge> find_edge(const ScanCloud& cloud, const Plate& plate, const Plate& other,
+                                   const Line& line, SeamSide side, const EdgeSearch& search) {
+  if (!cloud.organised()) return std::nullopt;
+  const Eigen::Vector3d away = away_from_seam(plate, other);
+  std::vector<Place> places;
+  for (const auto& run : points_by_stripe(cloud, plate, line, away, search.tolerance))
+    if (const auto place = place_of(cloud, run, plate, line, away, side, search))
+      places.push_back(*place);
+  std::vector<Place> on_edge = largest_agreement(places, search);
+
+  PlateEdge edge;
+  for (int pass = 0; pass < 3 && on_edge.size() >= 2; ++pass) {
+    EdgeFit fit = fit_edge(on_edge, kLeastNoise);
+    double squares = kPriorPlaces * kLeastNoise * kLeastNoise;
+    for (const Place& place : on_edge) {
+      const double off = place.along - fit.at_seam - fit.slope * place.away;
+      squares += std::max(0.0, off * off - place.deviation * place.deviation);
+    }
+    const double noise =
+        std::sqrt(squares / (kPriorPlaces + static_cast<double>(on_edge.size()) - 1));
+    fit = fit_edge(on_edge, noise);
+    edge.along = fit.at_seam;
+    edge.variance = fit.variance + kFloor * kFloor;
+    edge.stripes = static_cast<int>(on_edge.size());
+    const auto occluded =
+        std::count_if(on_edge.begin(), on_edge.end(), [](const Place& p) { return p.occluded; });
+    edge.occluded = 2 * occluded > edge.stripes;
+    const auto outliers = std::erase_if(on_edge, [&](const Place& place) {
+      return std::abs(place.along - fit.at_seam - fit.slope * place.away) >
+             kOutlier * std::sqrt(variance_of(place, noise));
+    });
+    if (outliers == 0) break;
+  }
+  if (on_edge.size() < 2) return std::nullopt;
+  return edge;
+}
+
+}  // namespace arcstart

@@ -1,0 +1,33 @@
+// The edges at which a plate begins and ends along a seam, from where the stripes leave it.
+#pragma once
+
+#include <optional>
+
+#include "services/seam_finding/stations.hpp"
+
+namespace arcstart {
+
+enum class SeamSide { kBegin = -1, kEnd = 1 };
+
+struct EdgeSearch {
+  double expected = 0;       // along the line, where the edge should cross it; mm
+  double reach = 4;          // it lies no farther from there; mm
+  double tolerance = 0.5;    // of a point's distance from its plate; mm
+  double shortening_px = 0;  // a stripe's last centre lies so far before the edge
+};
+
+struct PlateEdge {
+  double along = 0;       // where it crosses the seam; mm
+  double variance = 0;    // mm2
+  int stripes = 0;        // that leave the plate over it
+  bool occluded = false;  // what is seen is the outline of something before the plate
+};
+
+// Stripes cross the seam at a slant, so several of them leave a plate over the edge at its begin,
+// each at another distance from the seam, and each known to a pixel however few of its inner points
+// are kept. The edge is the line through these places; a plate is cut square unless they say
+// otherwise. Nothing where fewer than two stripes agree, and in a cloud without stripes.
+std::optional<PlateEdge> find_edge(const ScanCloud& cloud, const Plate& plate, const Plate& other,
+                                   const Line& line, SeamSide side, const EdgeSearch& search);
+
+}  // namespace arcstart
