@@ -15,12 +15,16 @@ constexpr double kLeastNoise = 0.04;  // of a place along the seam, standard dev
 constexpr int kPriorPlaces = 2;       // with that noise, in the estimate of the noise
 constexpr double kFloor = 0.015;      // of an edge, whatever the number of its places; mm
 constexpr double kOutlier = 3;        // standard deviations
+constexpr double kNearSeam = 3;       // of it stripes turn into the other plate; mm
+constexpr double kFarEdge = 3;  // a stripe that ends so near the plate's far edge ends there; mm
+constexpr double kChord = 3;    // over which a stripe's direction is taken; mm
 constexpr double kLeastSlant = 0.05;  // of a stripe, mm along the seam for each mm of its length
 
 // Where a stripe leaves the plate.
 struct Place {
   double along = 0, away = 0;  // mm
   double deviation = 0;        // of along, for want of resolution alone; mm
+  bool sharp = false;          // a segment ends there
   bool occluded = false;
 };
 
@@ -36,39 +40,56 @@ std::vector<std::vector<int>> points_by_stripe(const ScanCloud& cloud, const Pla
   return stripes;
 }
 
+// Which way a stripe runs there, out of the plate; from points far enough apart for their noise.
+Eigen::Vector3d direction_at_end(const ScanCloud& cloud, const std::vector<int>& run,
+                                 bool at_back) {
+  const Eigen::Vector3d& last = cloud.points[at_back ? run.back() : run.front()];
+  Eigen::Vector3d way = Eigen::Vector3d::Zero();
+  for (std::size_t i = 1; i < run.size() && way.norm() < kChord; ++i)
+    way = last - cloud.points[at_back ? run[run.size() - 1 - i] : run[i]];
+  return way.norm() > 1e-6 ? way.normalized() : way;
+}
+
+// The usual way between the points that are left of a stripe.
+double thinned_step(const ScanCloud& cloud, const std::vector<int>& run) {
+  std::vector<double> steps;
+  for (std::size_t i = 1; i < run.size(); ++i)
+    steps.push_back((cloud.points[run[i]] - cloud.points[run[i - 1]]).norm());
+  const auto middle = steps.begin() + static_cast<std::ptrdiff_t>(steps.size() / 2);
+  std::nth_element(steps.begin(), middle, steps.end());
+  return *middle;
+}
+
 std::optional<Place> place_of(const ScanCloud& cloud, const std::vector<int>& run,
-                              const Plate& plate, const Line& line, const Eigen::Vector3d& away,
+                              const Plate& plate, const Plate& other, const Line& line,
                               SeamSide side, const EdgeSearch& search) {
   if (run.size() < 3) return std::nullopt;
   const bool rising = line.along(cloud.points[run.back()]) > line.along(cloud.points[run.front()]);
   const bool at_back = rising == (side == SeamSide::kEnd);
   const int last = at_back ? run.back() : run.front();
-  const int before = at_back ? run[run.size() - 2] : run[1];
   const int beyond = at_back ? last + 1 : last - 1;
   const ScanStripe& stripe = cloud.stripes[cloud.origins[last].stripe];
   const bool more = beyond >= stripe.first && beyond < stripe.first + stripe.count;
+  const bool joined = more && cloud.origins[beyond].segment == cloud.origins[last].segment;
+  // Through the seam to the other plate.
+  if (joined && std::binary_search(other.points.begin(), other.points.end(), beyond))
+    return std::nullopt;
 
-  const Eigen::Vector3d way = cloud.points[last] - cloud.points[before];
-  if (!(way.norm() > 1e-6)) return std::nullopt;
-  const Eigen::Vector3d direction = way.normalized();
+  const Eigen::Vector3d direction = direction_at_end(cloud, run, at_back);
   const double slant = std::abs(direction.dot(line.direction));
   if (slant < kLeastSlant) return std::nullopt;
-  Eigen::Vector3d point = cloud.points[last];
+  // A segment's end is known to a centre; within a segment the plate ends between two of the
+  // points that are left of it.
+  const bool sharp = cloud.origins[last].segment_end;
+  const double step = sharp ? cloud.origins[last].step : thinned_step(cloud, run);
+  const Eigen::Vector3d point =
+      cloud.points[last] + (sharp ? search.shortening_px : 0.5) * step * direction;
+  const Eigen::Vector3d away = away_from_seam(plate, other);
   Place place;
-  if (cloud.origins[last].segment_end) {
-    const double step = cloud.origins[last].step;
-    point += search.shortening_px * step * direction;
-    place.deviation = slant * step / std::sqrt(12.0);
-  } else if (more && cloud.origins[beyond].segment == cloud.origins[last].segment) {
-    // Within a segment, between two of the points that are left of it.
-    const double gap = (cloud.points[beyond] - point).norm();
-    point += gap / 2 * direction;
-    place.deviation = slant * gap / std::sqrt(12.0);
-  } else {
-    return std::nullopt;
-  }
   place.along = line.along(point);
   place.away = away.dot(point - line.point);
+  place.deviation = slant * step / std::sqrt(12.0);
+  place.sharp = sharp;
   place.occluded = more && plate.plane.signed_distance(cloud.points[beyond]) > 2 * search.tolerance;
   return place;
 }
@@ -97,7 +118,7 @@ std::vector<Place> largest_agreement(const std::vector<Place>& places, const Edg
   std::vector<Place> best;
   double most = 0;
   for (const Place& one : places) {
-    if (std::abs(one.along - search.expected) > search.reach) continue;
+    if (one.along < search.from || one.along > search.to) continue;
     std::vector<Place> together;
     double weight = 0;
     for (const Place& other : places) {
@@ -112,6 +133,22 @@ std::vector<Place> largest_agreement(const std::vector<Place>& places, const Edg
   return best;
 }
 
+// What lies farther from the seam is the plate's other edge, along the seam: half of the stripes
+// reach it.
+double far_edge(const ScanCloud& cloud, const std::vector<std::vector<int>>& runs, const Line& line,
+                const Eigen::Vector3d& away) {
+  std::vector<double> reaches;
+  for (const auto& run : runs) {
+    double reach = 0;
+    for (const int i : run) reach = std::max(reach, away.dot(cloud.points[i] - line.point));
+    if (reach > 0) reaches.push_back(reach);
+  }
+  if (reaches.empty()) return 0;
+  const auto middle = reaches.begin() + static_cast<std::ptrdiff_t>(reaches.size() / 2);
+  std::nth_element(reaches.begin(), middle, reaches.end());
+  return *middle - kFarEdge;
+}
+
 }  // namespace
 
 std::optional<PlateEdge> find_edge(const ScanCloud& cloud, const Plate& plate, const Plate& other,
@@ -119,13 +156,19 @@ std::optional<PlateEdge> find_edge(const ScanCloud& cloud, const Plate& plate, c
   if (!cloud.organised()) return std::nullopt;
   const Eigen::Vector3d away = away_from_seam(plate, other);
   std::vector<Place> places;
-  for (const auto& run : points_by_stripe(cloud, plate, line, away, search.tolerance))
-    if (const auto place = place_of(cloud, run, plate, line, away, side, search))
-      places.push_back(*place);
+  const auto runs = points_by_stripe(cloud, plate, line, away, search.tolerance);
+  const double far = far_edge(cloud, runs, line, away);
+  for (const auto& run : runs)
+    if (const auto place = place_of(cloud, run, plate, other, line, side, search))
+      if (place->sharp || (place->away > kNearSeam && place->away < far)) places.push_back(*place);
   std::vector<Place> on_edge = largest_agreement(places, search);
+  // A lone stripe may end for another reason.
+  if (on_edge.size() == 1 &&
+      !(on_edge[0].sharp && on_edge[0].away > kNearSeam && on_edge[0].away < far))
+    return std::nullopt;
 
   PlateEdge edge;
-  for (int pass = 0; pass < 3 && on_edge.size() >= 2; ++pass) {
+  for (int pass = 0; pass < 3 && !on_edge.empty(); ++pass) {
     EdgeFit fit = fit_edge(on_edge, kLeastNoise);
     double squares = kPriorPlaces * kLeastNoise * kLeastNoise;
     for (const Place& place : on_edge) {
@@ -147,7 +190,7 @@ std::optional<PlateEdge> find_edge(const ScanCloud& cloud, const Plate& plate, c
     });
     if (outliers == 0) break;
   }
-  if (on_edge.size() < 2) return std::nullopt;
+  if (on_edge.empty()) return std::nullopt;
   return edge;
 }
 

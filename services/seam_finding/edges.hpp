@@ -10,8 +10,7 @@ namespace arcstart {
 enum class SeamSide { kBegin = -1, kEnd = 1 };
 
 struct EdgeSearch {
-  double expected = 0;       // along the line, where the edge should cross it; mm
-  double reach = 4;          // it lies no farther from there; mm
+  double from = 0, to = 0;   // along the line, where the edge may cross it; mm
   double tolerance = 0.5;    // of a point's distance from its plate; mm
   double shortening_px = 0;  // a stripe's last centre lies so far before the edge
 };
@@ -26,7 +25,7 @@ struct PlateEdge {
 // Stripes cross the seam at a slant, so several of them leave a plate over the edge at its begin,
 // each at another distance from the seam, and each known to a pixel however few of its inner points
 // are kept. The edge is the line through these places; a plate is cut square unless they say
-// otherwise. Nothing where fewer than two stripes agree, and in a cloud without stripes.
+// otherwise. Nothing where no stripe leaves the plate there, and in a cloud without stripes.
 std::optional<PlateEdge> find_edge(const ScanCloud& cloud, const Plate& plate, const Plate& other,
                                    const Line& line, SeamSide side, const EdgeSearch& search);
 

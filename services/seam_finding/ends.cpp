@@ -1,5 +1,6 @@
 #include "services/seam_finding/ends.hpp"
 
+#include <algorithm>
 #include <cmath>
 #include <optional>
 
@@ -7,33 +8,83 @@ namespace arcstart {
 namespace {
 
 constexpr double kSameEdge = 2.5;  // standard deviations of their difference
-constexpr double kReach = 0.8;     // of an edge from the end that the stripes give, in spacings
-constexpr double kLeastReach = 1;  // mm
+// A stripe shows a plate at the seam also where it leaves it a little before; mm along the seam.
+constexpr double kMargin = 0.5;
+constexpr double kMostSlant = 0.5;  // of that for each mm before it
+
+// What the stripes say of where a plate begins at the seam. Places count outward: they rise toward
+// the side that is looked at, whichever it is.
+struct Bracket {
+  double inner = 0, outer = 0;  // it is there, and is not; mm
+  bool runs_on = false;         // it is there beyond the seam's end, too
+};
+
+Bracket bracket_of(const Stations& stations, int plate, double end, double outward) {
+  Bracket bracket{end, end, false};
+  double inner = -1e9, outer = 1e9;
+  bool shown = false;
+  for (const Station& station : stations.list) {
+    if (!station.known) continue;
+    const double place = outward * (station.along - end);
+    if (place <= 0 && stations.both(station)) inner = std::max(inner, place);
+    if (place > 0 && place < outer) {
+      outer = place;
+      shown = station.nearest[plate] <= stations.near[plate];
+    }
+  }
+  if (inner > -1e8) bracket.inner = end + outward * inner;
+  if (outer < 1e8) bracket.outer = end + outward * outer;
+  bracket.runs_on = shown;
+  return bracket;
+}
+
+// Of two plates the one that ends the seam first; the second is known by a bracket only.
+void limit_by_bracket(SeamEnd& end, const Bracket& bracket, double outward) {
+  const double inner = outward * bracket.inner, outer = outward * bracket.outer;
+  const double edge = outward * end.along;
+  if (edge <= inner) return;
+  const double low = inner, high = std::min(edge, outer), width = outer - inner;
+  if (!(width > 0)) return;
+  // It ends evenly likely anywhere in the bracket: before the edge, then it counts; else the edge.
+  const double share = std::clamp((high - low) / width, 0.0, 1.0);
+  const double mean = share * (low + high) / 2 + (1 - share) * edge;
+  const double within = (high - low) * (high - low) / 12;
+  const double variance = share * (within + std::pow((low + high) / 2 - mean, 2)) +
+                          (1 - share) * (end.variance + std::pow(edge - mean, 2));
+  end.along = outward * mean;
+  end.variance = variance;
+}
 
 }  // namespace
 
 SeamEnd find_end(const ScanCloud& cloud, const std::array<Plate, 2>& plates, const Line& line,
-                 const Course& course, SeamSide side, const EndSearch& search) {
+                 const Course& course, const Stations& stations, SeamSide side,
+                 const EndSearch& search) {
   const bool begin = side == SeamSide::kBegin;
-  const int missing = begin ? course.missing_before : course.missing_after;
-  const double gap = search.spacing * (1 + missing);
+  const double outward = begin ? -1 : 1;
   SeamEnd end;
   end.along = begin ? course.begin : course.end;
-  end.variance = gap * gap / 12;
   end.visibility = EndVisibility::kSeen;
-  if (begin ? course.begins_outside : course.ends_outside) end.visibility = EndVisibility::kOutside;
-  if (end.visibility == EndVisibility::kOutside) return end;
+  std::array<Bracket, 2> brackets;
+  for (int j = 0; j < 2; ++j) brackets[j] = bracket_of(stations, j, end.along, outward);
+  const double width = brackets[0].outer - brackets[0].inner;
+  end.variance = width * width / 12;
+  if (begin ? course.begins_outside : course.ends_outside) {
+    end.visibility = EndVisibility::kOutside;
+    return end;
+  }
 
-  EdgeSearch edge_search;
-  edge_search.expected = end.along;
-  edge_search.reach = kLeastReach + kReach * gap;
-  edge_search.tolerance = search.tolerance;
-  edge_search.shortening_px = search.shortening_px;
   std::array<std::optional<PlateEdge>, 2> edges;
-  for (int j = 0; j < 2; ++j)
+  for (int j = 0; j < 2; ++j) {
+    EdgeSearch edge_search;
+    const double margin = kMargin + kMostSlant * stations.near[j];
+    edge_search.from = std::min(brackets[j].inner, brackets[j].outer) - margin;
+    edge_search.to = std::max(brackets[j].inner, brackets[j].outer) + margin;
+    edge_search.tolerance = search.tolerance;
+    edge_search.shortening_px = search.shortening_px;
     edges[j] = find_edge(cloud, plates[j], plates[1 - j], line, side, edge_search);
+  }
   if (!edges[0] && !edges[1]) return end;
-
   end.by_edges = true;
   PlateEdge edge = edges[0] ? *edges[0] : *edges[1];
   if (edges[0] && edges[1]) {
@@ -48,6 +99,8 @@ SeamEnd find_end(const ScanCloud& cloud, const std::array<Plate, 2>& plates, con
   }
   end.along = edge.along;
   end.variance = edge.variance;
+  for (int j = 0; j < 2; ++j)
+    if (!edges[j] && !brackets[j].runs_on) limit_by_bracket(end, brackets[j], outward);
   if (edge.occluded) end.visibility = EndVisibility::kHidden;
   return end;
 }

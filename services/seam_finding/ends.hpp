@@ -12,19 +12,19 @@ struct SeamEnd {
   double along = 0;     // along the seam's line; mm
   double variance = 0;  // of it; mm2
   EndVisibility visibility = EndVisibility::kNotDetermined;
-  bool by_edges = false;  // else half-way between two stripes
+  bool by_edges = false;  // else known to half the distance of two stripes
 };
 
 struct EndSearch {
-  double spacing = 1;        // between stripes; mm
   double tolerance = 0.5;    // of a point's distance from its plate; mm
   double shortening_px = 0;  // a stripe's last centre lies so far before the edge
 };
 
 // The seam begins where both plates have begun: at the later of their edges; where the two agree
-// within their deviations, at their mean by variance. Where no edge was crossed by two stripes,
-// half- way between the last stripe that shows both plates and the next one that does not.
+// within their deviations, at their mean by variance. A plate whose edge no stripe crosses begins
+// somewhere between the last stripe that does not show it at the seam and the first that does.
 SeamEnd find_end(const ScanCloud& cloud, const std::array<Plate, 2>& plates, const Line& line,
-                 const Course& course, SeamSide side, const EndSearch& search);
+                 const Course& course, const Stations& stations, SeamSide side,
+                 const EndSearch& search);
 
 }  // namespace arcstart

@@ -69,6 +69,13 @@ PlaneSearch plane_search(const Scales& scales, const SeamFindingSettings& settin
   return search;
 }
 
+CourseSearch course_search(const Scales& scales) {
+  CourseSearch search;
+  search.spacing = scales.spacing;
+  search.tolerance = scales.tolerance;
+  return search;
+}
+
 JointSearch joint_search(const ScanCloud& cloud, const Scales& scales,
                          const SeamFindingSettings& settings) {
   JointSearch search;
@@ -79,8 +86,7 @@ JointSearch joint_search(const ScanCloud& cloud, const Scales& scales,
   search.length_min =
       cloud.organised() ? kShortestSeam : std::max(20.0, settings.stripes_min * scales.spacing);
   search.contact = scales.contact;
-  search.course.spacing = scales.spacing;
-  search.course.tolerance = scales.tolerance;
+  search.course = course_search(scales);
   return search;
 }
 
@@ -138,11 +144,12 @@ SeamResult::Alternative as_alternative(const Joint& joint, std::string reason) {
 // Where it starts and ends, and how sure that is.
 void set_ends(SeamResult& result, const ScanCloud& scan, const Joint& joint, const Scales& scales,
               const SeamFindingSettings& settings) {
-  SeamEnd start, end;
-  const EndSearch search{scales.spacing, scales.tolerance,
-                         settings.start_rule == "edges" ? settings.edge_shortening_px : 0};
-  start = find_end(scan, joint.plates, joint.line, joint.course, SeamSide::kBegin, search);
-  end = find_end(scan, joint.plates, joint.line, joint.course, SeamSide::kEnd, search);
+  const EndSearch search{scales.tolerance, settings.edge_shortening_px};
+  const Stations stations = stations_along(scan, joint.plates, joint.line, course_search(scales));
+  SeamEnd start =
+      find_end(scan, joint.plates, joint.line, joint.course, stations, SeamSide::kBegin, search);
+  const SeamEnd end =
+      find_end(scan, joint.plates, joint.line, joint.course, stations, SeamSide::kEnd, search);
   if (settings.start_rule == "stripe") start.along = joint.course.begin;
   if (settings.start_rule == "centroid")
     start.along =
