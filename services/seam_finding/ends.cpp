@@ -7,7 +7,9 @@
 namespace arcstart {
 namespace {
 
-constexpr double kSameEdge = 2.5;  // standard deviations of their difference
+constexpr double kNearSeam = 3, kBeside = 25;  // from the seam in a plate; mm
+constexpr double kStandsBefore = 3;            // mm
+constexpr double kSameEdge = 2.5;              // standard deviations of their difference
 // A stripe shows a plate at the seam also where it leaves it a little before; mm along the seam.
 constexpr double kMargin = 0.5;
 constexpr double kMostSlant = 0.5;  // of that for each mm before it
@@ -55,6 +57,36 @@ void limit_by_bracket(SeamEnd& end, const Bracket& bracket, double outward) {
   end.variance = variance;
 }
 
+// Of the stripe right beyond the seam's end that no longer shows a plate: whether the plate is seen
+// to have ended.
+EndVisibility seen_beyond(const ScanCloud& cloud, const Stations& stations,
+                          const std::array<Plate, 2>& plates, const Line& line, double end,
+                          double outward, double tolerance) {
+  const Station* next = nullptr;
+  for (const Station& station : stations.list)
+    if (station.known && station.stripe >= 0 && outward * (station.along - end) > 0 &&
+        (next == nullptr || outward * (station.along - next->along) < 0))
+      next = &station;
+  if (next == nullptr) return EndVisibility::kNotDetermined;
+  const ScanStripe& stripe = cloud.stripes[next->stripe];
+  EndVisibility visibility = EndVisibility::kSeen;
+  for (int j = 0; j < 2; ++j) {
+    if (next->nearest[j] <= stations.near[j]) continue;
+    const Eigen::Vector3d away = away_from_seam(plates[j], plates[1 - j]);
+    for (int i = stripe.first; i < stripe.first + stripe.count; ++i) {
+      const double r = away.dot(cloud.points[i] - line.point);
+      if (r < kNearSeam || r > kBeside ||
+          std::abs(plates[1 - j].plane.signed_distance(cloud.points[i])) <= tolerance)
+        continue;
+      // Something stands before the plate, or it is there and was measured badly.
+      const double height = plates[j].plane.signed_distance(cloud.points[i]);
+      if (height > kStandsBefore) return EndVisibility::kHidden;
+      if (height > -kStandsBefore) visibility = EndVisibility::kNotDetermined;
+    }
+  }
+  return visibility;
+}
+
 }  // namespace
 
 SeamEnd find_end(const ScanCloud& cloud, const std::array<Plate, 2>& plates, const Line& line,
@@ -84,7 +116,11 @@ SeamEnd find_end(const ScanCloud& cloud, const std::array<Plate, 2>& plates, con
     edge_search.shortening_px = search.shortening_px;
     edges[j] = find_edge(cloud, plates[j], plates[1 - j], line, side, edge_search);
   }
-  if (!edges[0] && !edges[1]) return end;
+  if (!edges[0] && !edges[1]) {
+    end.visibility =
+        seen_beyond(cloud, stations, plates, line, end.along, outward, search.tolerance);
+    return end;
+  }
   end.by_edges = true;
   PlateEdge edge = edges[0] ? *edges[0] : *edges[1];
   if (edges[0] && edges[1]) {

@@ -141,6 +141,23 @@ SeamResult::Alternative as_alternative(const Joint& joint, std::string reason) {
   return {"tee", joint.score, joint.start(), joint.end(), std::move(reason)};
 }
 
+std::string in_words(const SeamEnd& end, const std::string& which) {
+  switch (end.visibility) {
+    case EndVisibility::kHidden:
+      return fmt::format("the {} is hidden, the seam reaches at least so far; ", which);
+    case EndVisibility::kOutside:
+      return fmt::format("the seam runs on where the scan {}; ",
+                         which == "end" ? "ends" : "begins");
+    case EndVisibility::kNotDetermined:
+      return fmt::format("the {} was not seen well, the seam reaches at least so far; ", which);
+    case EndVisibility::kSeen:
+      break;
+  }
+  if (end.by_edges) return "";
+  return fmt::format("the {} is known to half a stripe spacing, no stripe crosses an edge there; ",
+                     which);
+}
+
 // Where it starts and ends, and how sure that is.
 void set_ends(SeamResult& result, const ScanCloud& scan, const Joint& joint, const Scales& scales,
               const SeamFindingSettings& settings) {
@@ -164,10 +181,7 @@ void set_ends(SeamResult& result, const ScanCloud& scan, const Joint& joint, con
                                    settings.refit_distance_mm, scales.spacing);
   if (settings.start_rule == "edges")
     result.accuracy = seam_accuracy(joint.plates, joint.line, accuracies, start, end);
-  if (!start.by_edges)
-    result.remark += "no edge was crossed at the start, it is known to half a stripe spacing; ";
-  if (!end.by_edges && end.visibility != EndVisibility::kOutside)
-    result.remark += "no edge was crossed at the end, it is known to half a stripe spacing; ";
+  result.remark += in_words(start, "start") + in_words(end, "end");
 }
 
 void answer(SeamResult& result, const ScanCloud& scan, const Joint& joint, const Scales& scales,
@@ -187,10 +201,6 @@ void answer(SeamResult& result, const ScanCloud& scan, const Joint& joint, const
     result.remark +=
         fmt::format("{} stripes right behind the end are missing; ", joint.course.missing_after);
   set_ends(result, scan, joint, scales, settings);
-  if (result.end_visibility == EndVisibility::kOutside)
-    result.remark += "the seam runs on where the scan ends; ";
-  if (result.end_visibility == EndVisibility::kHidden)
-    result.remark += "the end is hidden, the seam reaches at least so far; ";
   result.remark += "not determined: systematic deviations, gap, course, torch pose";
 }
 
@@ -286,8 +296,6 @@ SeamResult find_seam(const ScanCloud& scan, const Background& background,
     return result;
   }
   answer(result, scan, best, scales, settings);
-  if (result.start_visibility == EndVisibility::kHidden)
-    result.remark = "the start is hidden: the seam reaches at least from here; " + result.remark;
   return result;
 }
 

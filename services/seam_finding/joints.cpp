@@ -51,7 +51,7 @@ std::vector<int> with_pieces_of_the_plane(const ScanCloud& cloud, const std::vec
     points.insert(points.end(), faces[k].points.begin(), faces[k].points.end());
   }
   std::sort(points.begin(), points.end());
-  return points;
+  return without_scraps(cloud, points);
 }
 
 // Of a plate's points beside the seam: the share before the other plate, and how far they reach

@@ -12,6 +12,8 @@ constexpr double kSlantReach = 15;  // points so near the line say how the strip
 constexpr double kSteepest = 3;     // slant, mm along the line for each mm away from it
 constexpr double kStepMargin = 1.15;
 constexpr int kEmptyInARow = 3;  // so many stripes in a row that show nothing: nothing is there
+constexpr std::size_t kLeastPiece = 3;
+constexpr int kPieceGap = 3;  // outliers do not part a piece: so many places in the stripe
 constexpr double kInfinity = std::numeric_limits<double>::infinity();
 
 // What one stripe shows of one plate beside the line.
@@ -137,7 +139,8 @@ Stations stripe_stations(const ScanCloud& cloud, const std::array<Plate, 2>& pla
   for (int k = 0; k < static_cast<int>(stations.size()); ++k)
     stations[k] = {guessed_crossing(places, k, search.spacing),
                    {sights[0][k].nearest, sights[1][k].nearest},
-                   true};
+                   true,
+                   k};
   mark_unknown(cloud, stations);
   std::stable_sort(stations.begin(), stations.end(),
                    [](const Station& a, const Station& b) { return a.along < b.along; });
@@ -162,7 +165,7 @@ Stations piece_stations(const ScanCloud& cloud, const std::array<Plate, 2>& plat
   Stations found;
   found.near = {plates[0].contact, plates[1].contact};
   for (double t = low - search.spacing; t <= high + search.spacing; t += search.spacing) {
-    Station station{t, {kInfinity, kInfinity}, true};
+    Station station{t, {kInfinity, kInfinity}};
     for (int j = 0; j < 2; ++j) {
       const auto after = std::lower_bound(places[j].begin(), places[j].end(), t);
       if (after != places[j].end() && after != places[j].begin() &&
@@ -179,6 +182,23 @@ Stations piece_stations(const ScanCloud& cloud, const std::array<Plate, 2>& plat
 Eigen::Vector3d away_from_seam(const Plate& plate, const Plate& other) {
   const Eigen::Vector3d& n = plate.plane.normal;
   return (other.plane.normal - other.plane.normal.dot(n) * n).normalized();
+}
+
+std::vector<int> without_scraps(const ScanCloud& cloud, const std::vector<int>& points) {
+  if (!cloud.organised()) return points;
+  std::vector<int> kept;
+  for (std::size_t first = 0, last = 0; first < points.size(); first = last) {
+    for (last = first + 1; last < points.size(); ++last) {
+      const PointOrigin &a = cloud.origins[points[last - 1]], &b = cloud.origins[points[last]];
+      if (a.stripe != b.stripe || a.segment != b.segment ||
+          points[last] - points[last - 1] > kPieceGap)
+        break;
+    }
+    if (last - first >= kLeastPiece)
+      kept.insert(kept.end(), points.begin() + static_cast<std::ptrdiff_t>(first),
+                  points.begin() + static_cast<std::ptrdiff_t>(last));
+  }
+  return kept;
 }
 
 Stations stations_along(const ScanCloud& cloud, const std::array<Plate, 2>& plates,

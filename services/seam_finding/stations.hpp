@@ -16,6 +16,10 @@ struct Plate {
   std::vector<int> points;  // indices into the cloud, rising
 };
 
+// The points but for pieces of a stripe that are so short that chance may lay them on a plate:
+// fewer than three points in a row. All of a cloud without stripes.
+std::vector<int> without_scraps(const ScanCloud& cloud, const std::vector<int>& points);
+
 struct CourseSearch {
   double spacing = 1;      // between stripes, or points of an unorganised cloud; mm
   double tolerance = 0.5;  // of a point's distance from its plate; mm
@@ -31,6 +35,7 @@ struct Station {
   std::array<double, 2>
       nearest{};      // distance of each plate's nearest point from the line, infinite for none; mm
   bool known = true;  // false: the stripe is missing, or spoilt
+  int stripe = -1;    // index, -1 in a cloud without stripes
 };
 
 struct Stations {
