@@ -13,18 +13,24 @@ constexpr double kAgree = 0.35;  // places on one edge, along the seam; mm
 constexpr double kAgreeSlope = 0.02;  // and so much more for each mm between them
 constexpr double kLeastNoise = 0.04;  // of a place along the seam, standard deviation; mm
 constexpr int kPriorPlaces = 2;       // with that noise, in the estimate of the noise
-constexpr double kFloor = 0.045;      // of an edge: light ends over edges in many ways; mm
-constexpr double kOutlier = 3;        // standard deviations
-constexpr double kNearSeam = 3;       // of it stripes turn into the other plate; mm
-constexpr double kFarEdge = 3;  // a stripe that ends so near the plate's far edge ends there; mm
-constexpr double kChord = 3;    // over which a stripe's direction is taken; mm
+constexpr double kFloor = 0.02;       // of an edge, whatever the number of its places; mm
+// Light ends over edges in many ways: of the shortening, common to an edge; px.
+constexpr double kShorteningDeviation = 1;
+constexpr double kOutlier = 3;   // standard deviations
+constexpr double kNearSeam = 3;  // of it stripes turn into the other plate; mm
+constexpr double kFarEdge = 3;   // a stripe that ends so near the plate's far edge ends there; mm
+constexpr double kLeastDrop = 0.5;    // between points on a cut; mm
+constexpr double kCornerSlack = 0.5;  // mm
+constexpr double kCornerNoise = 0.3;  // along the stripe; mm
+constexpr double kChord = 3;          // over which a stripe's direction is taken; mm
 constexpr double kLeastSlant = 0.05;  // of a stripe, mm along the seam for each mm of its length
 
 // Where a stripe leaves the plate.
 struct Place {
   double along = 0, away = 0;  // mm
   double deviation = 0;        // of along, for want of resolution alone; mm
-  bool sharp = false;          // a segment ends there
+  double pixel = 0;    // what a pixel along the stripe is along the seam; mm, at a segment's end
+  bool sharp = false;  // a segment ends there, or turns over the edge
   bool occluded = false;
 };
 
@@ -60,6 +66,28 @@ double thinned_step(const ScanCloud& cloud, const std::vector<int>& run) {
   return *middle;
 }
 
+// Where the stripe turns over the plate's edge into the cut: the line through its next two points
+// meets the plate there.
+std::optional<Eigen::Vector3d> corner_beyond(const ScanCloud& cloud, const Plate& plate, int last,
+                                             bool at_back, const Eigen::Vector3d& direction,
+                                             double step) {
+  const int one = at_back ? last + 1 : last - 1, two = at_back ? last + 2 : last - 2;
+  const auto joined = [&](int i) {
+    return i >= 0 && i < cloud.size() && cloud.origins[i].stripe == cloud.origins[last].stripe &&
+           cloud.origins[i].segment == cloud.origins[last].segment;
+  };
+  if (!joined(one) || !joined(two)) return std::nullopt;
+  const Eigen::Vector3d &a = cloud.points[one], &b = cloud.points[two];
+  const double below = -plate.plane.signed_distance(a), deeper = -plate.plane.signed_distance(b);
+  if (deeper - below < kLeastDrop) return std::nullopt;
+  const Eigen::Vector3d corner = a + (a - b) * below / (deeper - below);
+  const double ahead = direction.dot(corner - cloud.points[last]);
+  if (ahead < -kCornerSlack || ahead > step + kCornerSlack ||
+      (corner - cloud.points[last]).norm() > step + kCornerSlack)
+    return std::nullopt;
+  return corner;
+}
+
 std::optional<Place> place_of(const ScanCloud& cloud, const std::vector<int>& run,
                               const Plate& plate, const Plate& other, const Line& line,
                               SeamSide side, const EdgeSearch& search) {
@@ -78,18 +106,23 @@ std::optional<Place> place_of(const ScanCloud& cloud, const std::vector<int>& ru
   const Eigen::Vector3d direction = direction_at_end(cloud, run, at_back);
   const double slant = std::abs(direction.dot(line.direction));
   if (slant < kLeastSlant) return std::nullopt;
-  // A segment's end is known to a centre; within a segment the plate ends between two of the
-  // points that are left of it.
-  const bool sharp = cloud.origins[last].segment_end;
-  const double step = sharp ? cloud.origins[last].step : thinned_step(cloud, run);
+  // A segment's end is known to a centre. A segment that runs on turns at the plate's edge into the
+  // cut, if the cut is in sight; else the plate ends between two of the points that are left.
+  const bool ends = cloud.origins[last].segment_end;
+  const double step = ends ? cloud.origins[last].step : thinned_step(cloud, run);
+  const auto corner =
+      ends ? std::nullopt : corner_beyond(cloud, plate, last, at_back, direction, step);
   const Eigen::Vector3d point =
-      cloud.points[last] + (sharp ? search.shortening_px : 0.5) * step * direction;
+      corner ? *corner
+             : Eigen::Vector3d(cloud.points[last] +
+                               (ends ? search.shortening_px : 0.5) * step * direction);
   const Eigen::Vector3d away = away_from_seam(plate, other);
   Place place;
   place.along = line.along(point);
   place.away = away.dot(point - line.point);
-  place.deviation = slant * step / std::sqrt(12.0);
-  place.sharp = sharp;
+  place.deviation = slant * (corner ? kCornerNoise : step / std::sqrt(12.0));
+  place.pixel = ends ? slant * step : 0;
+  place.sharp = ends || corner;
   place.occluded = more && plate.plane.signed_distance(cloud.points[beyond]) > 2 * search.tolerance;
   return place;
 }
@@ -162,9 +195,8 @@ std::optional<PlateEdge> find_edge(const ScanCloud& cloud, const Plate& plate, c
     if (const auto place = place_of(cloud, run, plate, other, line, side, search))
       if (place->sharp || (place->away > kNearSeam && place->away < far)) places.push_back(*place);
   std::vector<Place> on_edge = largest_agreement(places, search);
-  // A lone stripe may end for another reason.
-  if (on_edge.size() == 1 &&
-      !(on_edge[0].sharp && on_edge[0].away > kNearSeam && on_edge[0].away < far))
+  // A lone stripe that ends beside the seam, or at the far edge, ends for another reason.
+  if (on_edge.size() == 1 && !(on_edge[0].away > kNearSeam && on_edge[0].away < far))
     return std::nullopt;
 
   PlateEdge edge;
@@ -179,7 +211,9 @@ std::optional<PlateEdge> find_edge(const ScanCloud& cloud, const Plate& plate, c
         std::sqrt(squares / (kPriorPlaces + static_cast<double>(on_edge.size()) - 1));
     fit = fit_edge(on_edge, noise);
     edge.along = fit.at_seam;
-    edge.variance = fit.variance + kFloor * kFloor;
+    double pixel = 0;
+    for (const Place& place : on_edge) pixel += place.pixel / static_cast<double>(on_edge.size());
+    edge.variance = fit.variance + kFloor * kFloor + std::pow(kShorteningDeviation * pixel, 2);
     edge.stripes = static_cast<int>(on_edge.size());
     const auto occluded =
         std::count_if(on_edge.begin(), on_edge.end(), [](const Place& p) { return p.occluded; });

@@ -99,7 +99,7 @@ SeamEnd find_end(const ScanCloud& cloud, const std::array<Plate, 2>& plates, con
   end.visibility = EndVisibility::kSeen;
   std::array<Bracket, 2> brackets;
   for (int j = 0; j < 2; ++j) brackets[j] = bracket_of(stations, j, end.along, outward);
-  const double width = brackets[0].outer - brackets[0].inner;
+  const double width = std::abs(brackets[0].outer - brackets[0].inner);
   end.variance = width * width / 12;
   if (begin ? course.begins_outside : course.ends_outside) {
     end.visibility = EndVisibility::kOutside;
@@ -110,8 +110,10 @@ SeamEnd find_end(const ScanCloud& cloud, const std::array<Plate, 2>& plates, con
   for (int j = 0; j < 2; ++j) {
     EdgeSearch edge_search;
     const double margin = kMargin + kMostSlant * stations.near[j];
-    edge_search.from = std::min(brackets[j].inner, brackets[j].outer) - margin;
-    edge_search.to = std::max(brackets[j].inner, brackets[j].outer) + margin;
+    const double inner = brackets[j].inner - outward * margin;
+    const double outer = brackets[j].outer + outward * std::max(margin, width);
+    edge_search.from = std::min(inner, outer);
+    edge_search.to = std::max(inner, outer);
     edge_search.tolerance = search.tolerance;
     edge_search.shortening_px = search.shortening_px;
     edges[j] = find_edge(cloud, plates[j], plates[1 - j], line, side, edge_search);

@@ -37,8 +37,8 @@ struct SeamFindingSettings {
   // points of both plates along the seam.
   std::string start_rule = "edges";
   int start_points = 10;  // x
-  // The detector's kernel ends a stripe so many pixels before the edge of what it lies on.
-  double edge_shortening_px = 2.5;
+  // The detector's last centre of a segment lies so many pixels before the edge of what it lies on.
+  double edge_shortening_px = 2.8;
 
   // When to refuse.
   int stripes_min = 5;  // with points of both plates at the seam

@@ -8,9 +8,9 @@
 namespace arcstart {
 namespace {
 
-constexpr double kSlantReach = 15;  // points so near the line say how the stripes cross it; mm
-constexpr double kSteepest = 3;     // slant, mm along the line for each mm away from it
-constexpr double kStepMargin = 1.15;
+constexpr double kSlantReach = 15;    // points so near the line say how the stripes cross it; mm
+constexpr double kSteepest = 3;       // slant, mm along the line for each mm away from it
+constexpr double kStepMargin = 2.15;  // a point may be missing; steps
 constexpr int kEmptyInARow = 3;  // so many stripes in a row that show nothing: nothing is there
 constexpr std::size_t kLeastPiece = 3;
 constexpr int kPieceGap = 3;  // outliers do not part a piece: so many places in the stripe
@@ -54,7 +54,7 @@ double slant_of(const std::vector<Sight>& sights) {
 }
 
 // How far from the line a plate's nearest point can be where the stripe runs on to the line: points
-// nearer than the tolerance do not count, and the others are a step apart.
+// nearer than the tolerance do not count, the others are a step apart, and one may be an outlier.
 double near_limit(std::vector<Sight>& sights, double tolerance, double contact) {
   std::vector<double> steps;
   for (Sight& s : sights) {
@@ -194,7 +194,9 @@ std::vector<int> without_scraps(const ScanCloud& cloud, const std::vector<int>& 
           points[last] - points[last - 1] > kPieceGap)
         break;
     }
-    if (last - first >= kLeastPiece)
+    const bool ends =
+        cloud.origins[points[first]].segment_end || cloud.origins[points[last - 1]].segment_end;
+    if (last - first + ends >= kLeastPiece)
       kept.insert(kept.end(), points.begin() + static_cast<std::ptrdiff_t>(first),
                   points.begin() + static_cast<std::ptrdiff_t>(last));
   }

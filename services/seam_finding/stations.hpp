@@ -17,7 +17,7 @@ struct Plate {
 };
 
 // The points but for pieces of a stripe that are so short that chance may lay them on a plate:
-// fewer than three points in a row. All of a cloud without stripes.
+// fewer than three points in a row, or two at a segment's end. All of a cloud without stripes.
 std::vector<int> without_scraps(const ScanCloud& cloud, const std::vector<int>& points);
 
 struct CourseSearch {

@@ -1,5 +1,6 @@
 #include "services/seam_finding/scan_answer.hpp"
 
+#include <Eigen/Cholesky>
 #include <catch2/catch.hpp>
 
 #include "common/message_checks.hpp"
@@ -79,14 +80,24 @@ TEST_CASE("an answer has a meaning, its counts and its identity") {
   CHECK(seam.reason.empty());
 }
 
+TEST_CASE("ends and deviations are told") {
+  const seam_t seam = Scans().answer();
+  CHECK(seam.start_visibility == seam_t::SEEN);
+  CHECK(seam.end_visibility == seam_t::SEEN);
+  const Eigen::Map<const Eigen::Matrix3d> start(&seam.start_covariance[0][0]);
+  CHECK((start - start.transpose()).norm() < 1e-12);
+  CHECK(start.ldlt().isPositive());
+  CHECK(start.trace() < 4);
+  CHECK(seam.direction_deviation > 0);
+  CHECK(seam.direction_deviation < 0.002);
+  CHECK(seam.normal_deviations[0] > 0);
+  CHECK(seam.normal_deviations[1] > 0);
+  CHECK(seam.angle_deviation > 0);
+}
+
 TEST_CASE("what is not determined says so") {
   const seam_t seam = Scans().answer();
-  CHECK(seam.start_covariance[1][2] == -1);
   CHECK(seam.end_systematic[0][0] == -1);
-  CHECK(seam.start_visibility == seam_t::NOT_DETERMINED);
-  CHECK(seam.direction_deviation == -1);
-  CHECK(seam.normal_deviations[1] == -1);
-  CHECK(seam.angle_deviation == -1);
   CHECK(seam.gap == -1);
   CHECK(seam.gap_deviation == -1);
   CHECK(seam.polyline_count == 0);

@@ -164,7 +164,16 @@ SyntheticScan make_scan(const Scene& scene, const ScanChoice& choice, std::uint6
       runs_on = true;
     }
     int number = 0;
-    for (const auto& segment : segments) {
+    for (auto& segment : segments) {
+      for (const bool front : {true, false}) {
+        const std::size_t lost =
+            std::min<std::size_t>(segment.size(), random.between(0, 1) < 0.7 ? 2 : 3);
+        const auto count = static_cast<std::ptrdiff_t>(lost);
+        if (front)
+          segment.erase(segment.begin(), segment.begin() + count);
+        else
+          segment.erase(segment.end() - count, segment.end());
+      }
       if (segment.size() < 4) continue;
       for (std::size_t i = 0; i < segment.size(); ++i) {
         const bool end = i == 0 || i + 1 == segment.size();
@@ -174,8 +183,10 @@ SyntheticScan make_scan(const Scene& scene, const ScanChoice& choice, std::uint6
         const double off = outlier ? random.between(-20, 20) : random.normal(choice.noise);
         cloud.points.push_back(segment[i].point + off * sight + shift);
         scan.truth.push_back(outlier ? Truth::kOutlier : segment[i].truth);
-        cloud.origins.push_back({static_cast<int>(cloud.stripes.size()), number, end,
-                                 static_cast<float>(choice.noise)});
+        const std::size_t next = i == 0 ? 1 : i - 1;
+        cloud.origins.push_back(
+            {static_cast<int>(cloud.stripes.size()), number, end, static_cast<float>(choice.noise),
+             static_cast<float>((segment[i].point - segment[next].point).norm())});
       }
       ++number;
     }

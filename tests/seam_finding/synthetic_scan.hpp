@@ -1,6 +1,7 @@
 // Scans of a scene of boxes on an uneven table, in closed form: a fan of laser rays in each
-// stripe's plane, the first box it meets, and whether the camera sees that point. No image, no code
-// of the product beside its cloud.
+// stripe's plane, the first box it meets, and whether the camera sees that point. As in images that
+// go through the detector, a segment's last centres are lost. No image, no code of the product
+// beside its cloud.
 #pragma once
 
 #include <Eigen/Geometry>
