@@ -15,7 +15,11 @@ void copy(const Eigen::Vector3d& from, double to[3]) { std::copy(from.begin(), f
 }  // namespace
 
 SimulatedScan::SimulatedScan(Bus& bus, const SimulatedScanSettings& settings, std::uint64_t seed)
-    : bus_(bus), settings_(settings), seed_(seed), renderer_(settings.sensor) {
+    : bus_(bus),
+      settings_(settings),
+      losses_(seed * 31 + 7),
+      seed_(seed),
+      renderer_(settings.sensor) {
   publish_calibration();
 }
 
@@ -59,6 +63,7 @@ void SimulatedScan::publish_scan(std::int8_t state, SceneKind kind, std::int64_t
   message.first_seq = images > 0 ? first_seq_ : -1;
   message.last_seq = images > 0 ? image_seq_ - 1 : -1;
   message.images = images;
+  message.lost = frames_lost_;
   if (state == scan_t::ENDED) message.end_reason = "tool stood still";
   bus_.publish("LASER0_SCAN", message);
 }
@@ -75,12 +80,17 @@ void SimulatedScan::publish_pose(const RigidTransform& T_base_tool, std::int64_t
   transform_to_arrays(seen, message.position, message.quaternion);
   message.device_clock = utime;
   message.device_tick_us = 1;
-  bus_.publish("ROBOT0_POSE", message);
+  if (!lost(settings_.positions_lost_share)) bus_.publish("ROBOT0_POSE", message);
 }
 
 void SimulatedScan::publish_image(const Scene& scene, const RigidTransform& T_base_tool,
                                   std::int64_t middle, int index) {
   const TrueSensor& sensor = renderer_.sensor();
+  if (lost(settings_.frames_lost_share)) {
+    ++image_seq_;
+    ++frames_lost_;
+    return;
+  }
   image_t message{};
   message.utime = middle + seconds_to_us(settings_.image_delay_s);
   message.run_id = kRunId;
@@ -118,6 +128,7 @@ void SimulatedScan::run(SceneKind kind) {
   };
   publish_scan(scan_t::SCANNING, kind, clock_, 0);
   first_seq_ = image_seq_;
+  frames_lost_ = 0;
   int images = 0, positions = -50;  // a second of positions before the scan
   const double last = duration + 1;
   for (;;) {

@@ -5,6 +5,7 @@
 
 #include <arcstart/truth_t.hpp>
 #include <cstdint>
+#include <random>
 
 #include "common/bus.hpp"
 #include "services/cell_simulator/image_renderer.hpp"
@@ -20,6 +21,8 @@ struct SimulatedScanSettings {
   double positions_per_second = 50;
   double position_noise_mm = 0.02;
   double image_delay_s = 0.02732;  // images are stamped so much late
+  double frames_lost_share = 0;    // at the camera
+  double positions_lost_share = 0;
 };
 
 class SimulatedScan {
@@ -31,6 +34,12 @@ class SimulatedScan {
   void run(SceneKind kind);
   truth_t truth() const;
 
+  // Of the scans to come.
+  void set_losses(double frames_share, double positions_share) {
+    settings_.frames_lost_share = frames_share;
+    settings_.positions_lost_share = positions_share;
+  }
+
  private:
   void publish_calibration();
   void publish_scan(std::int8_t state, SceneKind kind, std::int64_t now, int images);
@@ -38,13 +47,16 @@ class SimulatedScan {
   void publish_image(const Scene& scene, const RigidTransform& T_base_tool, std::int64_t middle,
                      int index);
 
+  bool lost(double share) { return std::uniform_real_distribution<double>(0, 1)(losses_) < share; }
+
   Bus& bus_;
   SimulatedScanSettings settings_;
+  std::mt19937_64 losses_;
   std::uint64_t seed_;
   ImageRenderer renderer_;
   std::int64_t clock_ = 1'700'000'000'000'000;  // us, UTC
   std::int64_t scan_id_ = 0, image_seq_ = 0, pose_seq_ = 0, first_seq_ = 0;
-  std::vector<std::uint8_t> grey_;
+  int frames_lost_ = 0;  // of this scan
 };
 
 }  // namespace arcstart

@@ -1,0 +1,98 @@
+#include "tests/bench/seam_row.hpp"
+
+#include <fmt/format.h>
+
+#include <Eigen/Core>
+#include <algorithm>
+#include <cmath>
+#include <numeric>
+
+#include "services/command_line/seam_error.hpp"
+
+namespace arcstart {
+namespace {
+
+double mean(const std::vector<double>& values) {
+  return values.empty() ? 0
+                        : std::accumulate(values.begin(), values.end(), 0.0) /
+                              static_cast<double>(values.size());
+}
+
+// Nearest rank.
+double percentile(std::vector<double> values, double share) {
+  if (values.empty()) return 0;
+  std::sort(values.begin(), values.end());
+  const auto rank = static_cast<std::size_t>(
+      std::max(1.0, std::ceil(share * static_cast<double>(values.size()))));
+  return values[rank - 1];
+}
+
+}  // namespace
+
+void SeamRow::add(int seed, const seam_t& seam, const std::optional<truth_t>& truth,
+                  double tell_mm) {
+  ++seeds_;
+  if (seam.verdict != seam_t::FOUND) {
+    ++refused_;
+    if (truth)
+      fmt::print("  {} seed {}: {}: {}\n", name_, seed,
+                 seam.verdict == seam_t::AMBIGUOUS ? "ambiguous" : "refused", seam.reason);
+    return;
+  }
+  if (!truth) {
+    ++wrong_;
+    fmt::print("  {} seed {}: WRONG, there is no seam\n", name_, seed);
+    return;
+  }
+  const SeamError error = seam_error(seam, *truth);
+  wrong_ += error.wrong;
+  start_.push_back(error.start_mm);
+  lateral_.push_back(error.lateral_mm);
+  direction_.push_back(error.direction_deg);
+  const Eigen::Map<const Eigen::Matrix3d> covariance(&seam.start_covariance[0][0]);
+  const Eigen::Map<const Eigen::Vector3d> direction(truth->direction);
+  const double deviation = std::sqrt(std::max(0.0, direction.dot(covariance * direction)));
+  if (covariance(0, 0) >= 0) {
+    ++covered_;
+    within_ += std::abs(error.along_mm) <= 2 * deviation;
+  }
+  if (error.wrong || error.start_mm > tell_mm)
+    fmt::print("  {} seed {}: start {:.3f} mm (along {:.3f}, deviation {:.3f}), {}{}\n", name_,
+               seed, error.start_mm, error.along_mm, deviation, seam.remark,
+               error.wrong ? "  WRONG" : "");
+}
+
+void print_row_header() {
+  fmt::print(
+      "{:<16} {:>5} {:>5} {:>7} | start {:>6} {:>6} {:>6} | lateral {:>6} {:>6} | direction {:>6} "
+      "{:>6} | {:>8}\n",
+      "row", "n", "wrong", "refused", "mean", "95 %", "max", "mean", "max", "mean", "max",
+      "within 2s");
+}
+
+void SeamRow::finish(nlohmann::json& json) const {
+  const double within =
+      covered_ > 0 ? static_cast<double>(within_) / static_cast<double>(covered_) : 0;
+  const double start95 = percentile(start_, 0.95), start_max = percentile(start_, 1);
+  const double lateral_max = percentile(lateral_, 1), direction_max = percentile(direction_, 1);
+  fmt::print(
+      "{:<16} {:>5} {:>5} {:>7} |       {:>6.3f} {:>6.3f} {:>6.3f} |         {:>6.4f} {:>6.4f} |   "
+      "        {:>6.4f} {:>6.4f} | {:>8.2f}\n",
+      name_, seeds_, wrong_, refused_, mean(start_), start95, start_max, mean(lateral_),
+      lateral_max, mean(direction_), direction_max, within);
+  std::fflush(stdout);
+  json[name_ + ".n"] = seeds_;
+  json[name_ + ".wrong"] = wrong_;
+  json[name_ + ".refused"] = refused_;
+  if (start_.empty()) return;
+  json[name_ + ".start_mean_mm"] = mean(start_);
+  json[name_ + ".start_p95_mm"] = start95;
+  json[name_ + ".start_max_mm"] = start_max;
+  json[name_ + ".lateral_mean_mm"] = mean(lateral_);
+  json[name_ + ".lateral_max_mm"] = lateral_max;
+  json[name_ + ".direction_mean_deg"] = mean(direction_);
+  json[name_ + ".direction_max_deg"] = direction_max;
+  json[name_ + ".within_2sigma"] = within;
+}
+
+}  // namespace arcstart

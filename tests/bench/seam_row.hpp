@@ -1,0 +1,32 @@
+// A row of the table of seam errors: many seeds of one kind of scene, each told.
+#pragma once
+
+#include <arcstart/seam_t.hpp>
+#include <arcstart/truth_t.hpp>
+#include <nlohmann/json.hpp>
+#include <optional>
+#include <string>
+#include <vector>
+
+namespace arcstart {
+
+class SeamRow {
+ public:
+  explicit SeamRow(std::string name) : name_(std::move(name)) {}
+
+  // truth: nothing where there is no seam, so that every answer is wrong. Prints seeds that are
+  // wrong or not answered, and those whose start is off by more than `tell_mm`.
+  void add(int seed, const seam_t& seam, const std::optional<truth_t>& truth, double tell_mm);
+
+  // One line to the table, and the figures as NAME.n, NAME.wrong and so on.
+  void finish(nlohmann::json& json) const;
+
+ private:
+  std::string name_;
+  int seeds_ = 0, wrong_ = 0, refused_ = 0, within_ = 0, covered_ = 0;
+  std::vector<double> start_, lateral_, direction_;  // of each answer; mm, mm, deg
+};
+
+void print_row_header();
+
+}  // namespace arcstart
