@@ -2,7 +2,10 @@
 
 #include <fmt/format.h>
 
+#include <cerrno>
 #include <cmath>
+#include <cstring>
+#include <fstream>
 #include <iostream>
 #include <memory>
 #include <stdexcept>
@@ -20,7 +23,7 @@ constexpr double kViewHeight = 1000;  // of a viewpoint that is not given, above
 constexpr std::uint64_t kSeed = 1;
 
 struct Options {
-  std::string cloud, background, picture, cell, units = "mm";
+  std::string cloud, background, picture, stations, cell, units = "mm";
   std::vector<double> viewpoint, search_direction;
   bool remove_plane = false, json = false;
 
@@ -116,6 +119,22 @@ void draw(const ScanCloud& cloud, const SeamResult& result, const std::optional<
   say("picture: " + options.picture);
 }
 
+// What was measured along the seam, a line a place. Throws PointCloudFileError where it cannot be
+// written.
+void write_stations(const SeamResult& result, const std::string& path) {
+  std::string text = "distance,x,y,z,residual,tack\n";  // mm
+  for (const SurveyPlace& place : result.stations)
+    text += fmt::format("{:.3f},{:.4f},{:.4f},{:.4f},{},{}\n", place.along, place.position.x(),
+                        place.position.y(), place.position.z(),
+                        place.residual < 0 ? "" : fmt::format("{:.4f}", place.residual),
+                        place.tack ? 1 : 0);
+  std::ofstream file(path, std::ios::binary);
+  file << text;
+  file.close();
+  if (!file) throw PointCloudFileError(path + ": cannot be written: " + std::strerror(errno));
+  say("stations: " + path);
+}
+
 void tell(const SeamResult& result) {
   switch (result.verdict) {
     case SeamResult::Verdict::kFound:
@@ -165,6 +184,7 @@ int run(const Options& options) try {
     std::cout << seam_to_json(seam).dump() << "\n";
   }
   if (!options.picture.empty()) draw(cloud, result, plane, options);
+  if (!options.stations.empty()) write_stations(result, options.stations);
   return result.verdict == SeamResult::Verdict::kFound ? 0 : 1;
 } catch (const PointCloudFileError& error) {
   say(error.what());
@@ -219,6 +239,9 @@ void add_find_seam_command(CLI::App& parent, int& exit_code) {
                     "Print the answer on standard output, keys as in seam_t (mm and rad)");
   command->add_option("--picture", options->picture,
                       "PNG of the cloud with background, plates, seam and start, from two sides");
+  command->add_option("--csv", options->stations,
+                      "CSV of the places along the seam: distance from the start, position, "
+                      "residual from the line (mm, empty where not measured), tack weld (0 or 1)");
   command->add_option("--cell", options->cell,
                       "The cell's file, cell.yaml, whose section seam_finding is to be used");
   command->footer(

@@ -20,6 +20,8 @@ constexpr double kNoiseTolerance = 4;    // tolerance over noise
 constexpr double kPlaneHeights = 5;      // of PlaneBackground, in tolerances
 constexpr double kPitches = 1.3;         // contact over the points' distance along a stripe
 constexpr double kShortestSeam = 10;     // mm: less of it seen on both plates is no seam
+constexpr double kStationSpacings = 3;   // between stations of a cloud without stripes
+constexpr double kStraight = 0.5;        // mm
 constexpr int kAlternatives = 6;
 constexpr int kMissingInARow = 3;    // stripes before the start
 constexpr double kContinues = 0.25;  // share of a face's points that lie in its plane as background
@@ -181,7 +183,7 @@ void set_ends(SeamResult& result, const ScanCloud& scan, const Joint& joint, con
                                    settings.refit_distance_mm, scales.spacing);
   if (settings.start_rule == "edges")
     result.accuracy = seam_accuracy(joint.plates, joint.line, accuracies, start, end);
-  result.remark += in_words(start, "start") + in_words(end, "end");
+  if (scan.organised()) result.remark += in_words(start, "start") + in_words(end, "end");
 }
 
 void answer(SeamResult& result, const ScanCloud& scan, const Joint& joint, const Scales& scales,
@@ -201,7 +203,15 @@ void answer(SeamResult& result, const ScanCloud& scan, const Joint& joint, const
     result.remark +=
         fmt::format("{} stripes right behind the end are missing; ", joint.course.missing_after);
   set_ends(result, scan, joint, scales, settings);
-  result.remark += "not determined: systematic deviations, gap, course, torch pose";
+  const double start = joint.line.along(result.start);
+  result.stations = survey_seam(scan, joint.plates, joint.line, start, joint.line.along(result.end),
+                                scales.spacing);
+  result.course = polyline_through(result.stations, result.start, result.end, kStraight);
+  for (SurveyPlace& place : result.stations) place.along -= start;
+  result.torch = torch_at(result.start, result.direction, result.normals,
+                          {settings.torch_work_angle_deg * kDegree,
+                           settings.torch_travel_angle_deg * kDegree, settings.approach_mm});
+  result.remark += "not determined: systematic deviations, gap";
 }
 
 }  // namespace

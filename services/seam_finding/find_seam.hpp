@@ -9,6 +9,8 @@
 #include "services/seam_finding/accuracy.hpp"
 #include "services/seam_finding/background.hpp"
 #include "services/seam_finding/seam_finding_settings.hpp"
+#include "services/seam_finding/seam_survey.hpp"
+#include "services/seam_finding/torch.hpp"
 
 namespace arcstart {
 
@@ -27,7 +29,10 @@ struct SeamResult {
   double angle = 0;  // between the plates' open sides
   EndVisibility start_visibility = EndVisibility::kNotDetermined;
   EndVisibility end_visibility = EndVisibility::kNotDetermined;
-  std::optional<SeamAccuracy> accuracy;    // nothing where it was not determined
+  std::optional<SeamAccuracy> accuracy;  // nothing where it was not determined
+  Polyline course;
+  std::vector<SurveyPlace> stations;  // along counts from the start
+  std::optional<TorchPose> torch;
   std::array<std::vector<int>, 2> plates;  // indices of the plates' points
 
   // Other seams, and where ambiguous all of them, best first.

@@ -143,6 +143,28 @@ void fill_in(seam_t& seam, const SeamResult& result) {
   seam.angle = result.angle;
   seam.start_visibility = visibility_of(result.start_visibility);
   seam.end_visibility = visibility_of(result.end_visibility);
+  for (const Eigen::Vector3d& point : result.course.points)
+    seam.polyline.push_back({point.x(), point.y(), point.z()});
+  seam.polyline_count = static_cast<int>(seam.polyline.size());
+  seam.polyline_deviation = result.course.deviation;
+  for (const SurveyPlace& place : result.stations) {
+    seam_station_t station{};
+    station.distance = place.along;
+    copy(place.position, station.position);
+    station.gap = station.gap_deviation = -1;
+    station.residual = place.residual;
+    station.tack = place.tack;
+    seam.stations.push_back(station);
+  }
+  seam.station_count = static_cast<int>(seam.stations.size());
+  if (result.torch) {
+    seam.torch_determined = true;
+    copy(result.torch->position, seam.torch_position);
+    copy(result.torch->approach, seam.approach_position);
+    const Eigen::Quaterniond& q = result.torch->orientation;
+    const double wxyz[] = {q.w(), q.x(), q.y(), q.z()};
+    std::copy(std::begin(wxyz), std::end(wxyz), seam.torch_quaternion);
+  }
   if (result.accuracy) {
     copy(result.accuracy->start, seam.start_covariance);
     copy(result.accuracy->end, seam.end_covariance);

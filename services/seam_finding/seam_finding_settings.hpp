@@ -40,6 +40,11 @@ struct SeamFindingSettings {
   // The detector's last centre of a segment lies so many pixels before the edge of what it lies on.
   double edge_shortening_px = 2.8;
 
+  // Torch.
+  double torch_work_angle_deg = 0;     // between it and the flatter plate; 0: in the middle of both
+  double torch_travel_angle_deg = 10;  // leaning back, so that the wire points ahead
+  double approach_mm = 100;            // from the start back along the torch
+
   // When to refuse.
   int stripes_min = 5;  // with points of both plates at the seam
   double ambiguity_ratio =
@@ -69,6 +74,9 @@ struct SeamFindingSettings {
     visitor("start_rule", start_rule, one_of({"edges", "stripe", "centroid"}));
     visitor("start_points", start_points, between(1, 1000));
     visitor("edge_shortening_px", edge_shortening_px, between(0, 20));
+    visitor("torch_work_angle_deg", torch_work_angle_deg, between(0, 150));
+    visitor("torch_travel_angle_deg", torch_travel_angle_deg, between(-45, 45));
+    visitor("approach_mm", approach_mm, between(10, 1000));
     visitor("stripes_min", stripes_min, between(3, 1000));
     visitor("ambiguity_ratio", ambiguity_ratio, between(1, 10));
     visitor("lost_share_max", lost_share_max, between(0, 0.5));

@@ -145,4 +145,5 @@ TEST_CASE("bad input ends with 2") {
   CHECK(run(path + " --remove-plane --background " + path).exit_code == 2);
   CHECK(run(path + " --units m --picture /nowhere/picture.png").exit_code == 2);
   CHECK(run(path + " --background /nowhere/cloud.pcd").exit_code == 2);
+  CHECK(run(path + " --units m --csv /nowhere/stations.csv").exit_code == 2);
 }

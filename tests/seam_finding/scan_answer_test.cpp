@@ -95,15 +95,31 @@ TEST_CASE("ends and deviations are told") {
   CHECK(seam.angle_deviation > 0);
 }
 
+TEST_CASE("course, stations and torch are told") {
+  const seam_t seam = Scans().answer();
+  CHECK(seam.polyline_count == 2);
+  CHECK(seam.polyline_deviation >= 0);
+  CHECK(seam.polyline_deviation < 0.2);
+  REQUIRE(seam.station_count > 15);
+  for (int i = 0; i < seam.station_count; ++i) {
+    CHECK(seam.stations[i].distance >= 0);
+    if (i > 0) CHECK(seam.stations[i].distance > seam.stations[i - 1].distance);
+    CHECK_FALSE(seam.stations[i].tack);
+    CHECK(seam.stations[i].residual < 0.5);
+  }
+  CHECK(seam.torch_determined);
+  CHECK(std::equal(std::begin(seam.start), std::end(seam.start), seam.torch_position));
+}
+
 TEST_CASE("what is not determined says so") {
   const seam_t seam = Scans().answer();
   CHECK(seam.end_systematic[0][0] == -1);
   CHECK(seam.gap == -1);
   CHECK(seam.gap_deviation == -1);
-  CHECK(seam.polyline_count == 0);
-  CHECK(seam.polyline_deviation == -1);
-  CHECK(seam.station_count == 0);
-  CHECK_FALSE(seam.torch_determined);
+  for (const auto& station : seam.stations) {
+    CHECK(station.gap == -1);
+    CHECK(station.gap_deviation == -1);
+  }
   CHECK_THAT(seam.remark, Catch::Contains("not determined"));
 }
 
