@@ -10,7 +10,7 @@ namespace arcstart {
 namespace {
 
 constexpr double kDegree = M_PI / 180;
-constexpr double kBeside = 25;     // concavity is judged by what lies so near the line; mm
+constexpr double kBeside = 25;     // a joint is judged by what lies so near the line; mm
 constexpr double kFullReach = 10;  // a plate that reaches so far from the seam counts in full; mm
 constexpr double kLeastConcave = 0.8;
 constexpr double kLeastExplained = 0.5;
@@ -57,7 +57,7 @@ std::vector<int> with_pieces_of_the_plane(const ScanCloud& cloud, const std::vec
 // Of a plate's points beside the seam: the share before the other plate, and how far they reach
 // from the line.
 struct Beside {
-  double before = 0;  // 0..1
+  double before = 0;  // of what touches the line; 0..1
   double reach = 0;   // three quarters of the points are nearer; mm
 };
 Beside look_beside(const ScanCloud& cloud, const Joint& joint, int plate, double tolerance) {
@@ -68,6 +68,8 @@ Beside look_beside(const ScanCloud& cloud, const Joint& joint, int plate, double
     const double t = joint.line.along(point), r = joint.line.distance(point);
     if (r > kBeside || t < joint.course.begin || t > joint.course.end) continue;
     distances.push_back(r);
+    // What lies farther behind may be the plate going on beyond the other's thickness.
+    if (r > joint.plates[plate].contact) continue;
     const double side = joint.plates[1 - plate].plane.signed_distance(point);
     before += side > tolerance;
     behind += side < -tolerance;
