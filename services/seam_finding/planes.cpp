@@ -151,7 +151,7 @@ double spacing_of(const ScanCloud& cloud, const Face& face, double connection) {
   for (const int i : face.points) points.push_back(cloud.points[i]);
   const NeighbourGrid grid(points, connection);
   std::vector<double> distances, fourth;
-  for (std::size_t i = 0; i < points.size(); i += 1 + points.size() / 200) {
+  for (std::size_t i = 0; i < points.size(); i += 1 + points.size() / 64) {
     grid.nearest_distances(static_cast<int>(i), 4, distances);
     fourth.push_back(distances.size() == 4 ? distances.back() : connection);
   }

@@ -37,6 +37,16 @@ std::vector<int> beside(const ScanCloud& cloud, const Joint& joint, int plate, c
   return points;
 }
 
+// Stripes are far apart and their points may be dense: neighbours need not be sought so far then.
+double outlier_spacing(const ScanCloud& cloud, const std::vector<int>& points, double spacing) {
+  if (points.size() < 3) return spacing;
+  PlaneSums sums(cloud.points[points.front()]);
+  for (const int i : points) sums.add(cloud.points[i]);
+  const Eigen::Vector2d spread = sums.fit().spread;
+  const double area = 12 * spread[0] * spread[1];  // of a rectangle with that spread
+  return std::min(spacing, 2 * std::sqrt(area / static_cast<double>(points.size())));
+}
+
 // Of the points from the plane, as their median distance tells it; mm. A plate may be rougher than
 // the cloud is where it is smoothest.
 double spread_about(const std::vector<Eigen::Vector3d>& points, const Plane& plane) {
@@ -140,8 +150,8 @@ void refit_joint(const ScanCloud& cloud, Joint& joint, const Refit& refit,
     for (int plate = 0; plate < 2; ++plate) {
       auto chosen = beside(cloud, joint, plate, refit);
       if (refit.neighbours > 0)
-        chosen =
-            without_outliers(cloud, chosen, refit.neighbours, refit.deviations, search.spacing);
+        chosen = without_outliers(cloud, chosen, refit.neighbours, refit.deviations,
+                                  outlier_spacing(cloud, chosen, search.spacing));
       if (static_cast<int>(chosen.size()) < kLeastPoints)
         continue;  // the face's own plane is better
       std::vector<Eigen::Vector3d> points;
