@@ -1,0 +1,223 @@
+#include "services/calibration/calibrate.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+#include <stdexcept>
+
+#include "services/calibration/outlying_views.hpp"
+#include "services/calibration/plate_turns.hpp"
+
+namespace arcstart {
+namespace {
+
+constexpr double kDegree = std::numbers::pi / 180;
+constexpr int kStripePoints = 100;  // of a view; neighbours share their noise
+constexpr std::size_t kFewestStripes = 3;
+constexpr double kLeastLaserSpread = 0.02;
+constexpr std::size_t kFewestCameraViews = 3;
+
+std::vector<RigidTransform> tool_poses(const std::vector<View>& views) {
+  std::vector<RigidTransform> poses;
+  for (const View& view : views) poses.push_back(view.T_base_tool);
+  return poses;
+}
+
+void keep_usable(const std::vector<View>& views, CalibrationRun& run) {
+  for (const View& view : views)
+    if (view.unusable.empty())
+      run.views.push_back(view);
+    else
+      run.left_out.push_back({view.index, view.unusable});
+}
+
+// Camera, without the views whose grid no camera could show so.
+void find_camera(const Plate& plate, int width, int height, CalibrationRun& run) {
+  for (;;) {
+    run.camera = calibrate_camera(plate, run.views, width, height);
+    const auto odd = odd_image(run.camera.view_rms);
+    if (!odd || run.views.size() <= kFewestCameraViews) return;
+    run.left_out.push_back(
+        {run.views[*odd].index,
+         fmt::format("its grid does not fit the camera: {:.2f} px rms, all together {:.2f}: glare, "
+                     "blur or a false detection",
+                     run.camera.view_rms[*odd], run.camera.rms)});
+    run.views.erase(run.views.begin() + static_cast<std::ptrdiff_t>(*odd));
+  }
+}
+
+void leave_out(CalibrationRun& run, std::size_t view, const std::string& why) {
+  run.left_out.push_back({run.views[view].index, why});
+  const auto offset = static_cast<std::ptrdiff_t>(view);
+  run.views.erase(run.views.begin() + offset);
+  run.camera.T_camera_plate.erase(run.camera.T_camera_plate.begin() + offset);
+  run.camera.view_rms.erase(run.camera.view_rms.begin() + offset);
+}
+
+void leave_out_wrong_turns(CalibrationRun& run) {
+  for (;;) {
+    const auto disagreement = angle_disagreement(tool_poses(run.views), run.camera.T_camera_plate);
+    const auto odd = odd_turn(disagreement);
+    if (!odd) return;
+    leave_out(run, *odd,
+              fmt::format("the robot's orientation does not fit the image, by {:.1f} deg: another "
+                          "pose's image, or the plate was turned",
+                          disagreement[*odd] / kDegree));
+  }
+}
+
+// The stripes, the plane fitted for itself, the grid's crossings. Why not, where there is none.
+std::string find_laser_plane(const Plate& plate, CalibrationRun& run) {
+  std::vector<Eigen::Vector3d> points;
+  std::size_t stripes = 0;
+  double squares = 0;
+  for (std::size_t i = 0; i < run.views.size(); ++i) {
+    View& view = run.views[i];
+    const bool seen = !view.stripe.empty();
+    view.stripe = straight_stripe(run.camera.model, view.stripe, kStripePoints);
+    if (seen && view.stripe.empty())
+      run.warnings.push_back(fmt::format("pose {}: no straight stripe on the plate", view.index));
+    stripes += !view.stripe.empty();
+    const auto on_plate =
+        stripe_on_plate(run.camera.model, run.camera.T_camera_plate[i], view.stripe);
+    points.insert(points.end(), on_plate.begin(), on_plate.end());
+    for (const double difference :
+         crossing_differences(run.camera.model, plate, run.camera.T_camera_plate[i], view)) {
+      squares += difference * difference;
+      ++run.crossings;
+    }
+  }
+  run.has_laser = stripes > 0;
+  if (!run.has_laser) return "";
+  if (stripes < kFewestStripes)
+    return fmt::format("{} poses show a stripe, at least {} are needed", stripes, kFewestStripes);
+  if (run.crossings > 0) run.crossing_rms_mm = std::sqrt(squares / run.crossings);
+  run.laser_apart = fit_laser_plane(points);
+  run.camera.model.laser_plane = run.laser_apart.plane;
+  if (run.laser_apart.spread < kLeastLaserSpread)
+    return "the stripes lie nearly on one line, which is no plane: vary distance and tilt";
+  return "";
+}
+
+const HandEyeMethod& best_method(const std::vector<HandEyeMethod>& methods) {
+  const HandEyeMethod& park = methods[1];
+  if (std::isfinite(park.consistency_mm)) return park;
+  return *std::min_element(methods.begin(), methods.end(), [](const auto& a, const auto& b) {
+    return a.consistency_mm < b.consistency_mm;
+  });
+}
+
+void warn_of_method_spread(CalibrationRun& run) {
+  double largest = 0;
+  for (const HandEyeMethod& a : run.methods)
+    for (const HandEyeMethod& b : run.methods)
+      largest = std::max(
+          largest, std::isfinite(a.consistency_mm + b.consistency_mm)
+                       ? (a.T_tool_camera.translation() - b.T_tool_camera.translation()).norm()
+                       : 1e9);
+  const double own =
+      std::sqrt(run.adjustment.covariance.diagonal().tail<3>().sum());  // mm, predicted
+  if (largest > std::max(1.0, 5 * own))
+    run.warnings.push_back(
+        largest < 1e9
+            ? fmt::format("closed forms of the hand-eye lie up to {:.2f} mm apart: the poses say "
+                          "little, or some are wrong",
+                          largest)
+            : std::string("a closed form of the hand-eye failed: the poses say little"));
+}
+
+std::string adjust_all(const Plate& plate, CalibrationRun& run) {
+  for (;;) {
+    run.spread = pose_spread(run.camera.T_camera_plate);
+    if (const std::string refusal = spread_refusal(run.spread); !refusal.empty()) return refusal;
+    run.camera_held = camera_must_be_held(run.spread);
+    run.methods =
+        closed_form_hand_eye(tool_poses(run.views), run.camera.T_camera_plate, plate.points());
+    const HandEyeMethod& first = best_method(run.methods);
+    if (!std::isfinite(first.consistency_mm))
+      return "no closed form of the hand-eye works: add poses tilted to other sides";
+    Deviations deviations;
+    deviations.pixel = std::max(0.02, run.camera.rms / std::numbers::sqrt2);
+    if (run.has_laser) deviations.laser_mm = std::max(0.01, run.laser_apart.rms_mm);
+    deviations.robot_mm = std::max(0.05, first.consistency_mm / std::numbers::sqrt3);
+    deviations.robot_rad = deviations.robot_mm / run.spread.farthest_mm;
+    run.adjustment = adjust(
+        plate, run.views,
+        {run.camera.model, first.T_tool_camera, first.T_base_plate, run.camera.T_camera_plate},
+        deviations, {!run.camera_held, true});
+    const auto odd = odd_pose(run.adjustment);
+    if (!odd) return "";
+    const RobotCorrection& correction = run.adjustment.robot[*odd];
+    leave_out(run, *odd,
+              fmt::format("the robot's position does not fit the others: {:.2f} mm and {:.3f} deg "
+                          "off, a pose's deviation is {:.2f} mm and {:.3f} deg",
+                          correction.translation.norm(), correction.rotation.norm() / kDegree,
+                          run.adjustment.deviations.robot_mm,
+                          run.adjustment.deviations.robot_rad / kDegree));
+  }
+}
+
+void judge(const Plate& plate, const CalibrateOptions& options, CalibrationRun& run) {
+  warn_of_method_spread(run);
+  if (!run.adjustment.converged)
+    run.warnings.push_back("the adjustment did not settle: its deviations are not to be relied on");
+  if (run.camera_held)
+    run.warnings.push_back(fmt::format(
+        "camera held as the camera stage found it: {} views that turn by {:.0f} deg do not tell "
+        "camera and hand-eye apart",
+        run.spread.views, run.spread.rotation_deg));
+  run.advice = spread_advice(run.spread);
+  run.flatness = plate_flatness(plate, run.views, run.adjustment.state);
+  if (run.flatness.bend_mm > std::max(0.05, 6 * run.flatness.deviation_mm))
+    run.warnings.push_back(
+        fmt::format("the plate is not flat: its points lie within {:.2f} mm; use "
+                    "a plate of glass or thick aluminium",
+                    run.flatness.bend_mm));
+  run.field = predicted_field(run.adjustment.state, run.adjustment.covariance, run.views);
+  if (!options.leave_one_out) return;
+  const auto say = [&](std::size_t view) {
+    options.progress(fmt::format("without pose {} of {}", view + 1, run.views.size()));
+  };
+  run.left_one_out = leave_one_out(plate, run.views, [&](std::size_t view) {
+    say(view);
+    return adjusted_without(plate, run.views, run.adjustment, !run.camera_held, view);
+  });
+  run.plain_left_one_out = leave_one_out(plate, run.views, [&](std::size_t view) {
+    say(view);
+    return plain_without(plate, run.views, run.camera.model, view);
+  });
+}
+
+}  // namespace
+
+CalibrationRun calibrate(const Plate& plate, const std::vector<View>& views, int width, int height,
+                         const CalibrateOptions& options) {
+  CalibrationRun run;
+  keep_usable(views, run);
+  if (run.views.size() < kFewestCameraViews) {
+    run.refused = fmt::format("{} of {} poses are usable: a camera needs {}, a calibration more",
+                              run.views.size(), views.size(), kFewestCameraViews);
+    return run;
+  }
+  options.progress("camera");
+  try {
+    find_camera(plate, width, height, run);
+  } catch (const std::runtime_error& error) {
+    run.refused = error.what();
+    return run;
+  }
+  settle_plate_turns(plate, run.views, run.camera.T_camera_plate);
+  leave_out_wrong_turns(run);
+  run.spread = pose_spread(run.camera.T_camera_plate);
+  run.refused = spread_refusal(run.spread);
+  if (run.refused.empty()) run.refused = find_laser_plane(plate, run);
+  if (!run.refused.empty()) return run;
+  options.progress("adjustment");
+  run.refused = adjust_all(plate, run);
+  if (run.refused.empty()) judge(plate, options, run);
+  return run;
+}
+
+}  // namespace arcstart
