@@ -35,7 +35,7 @@ struct TargetResidual {
   template <class T>
   bool operator()(const T* camera, const T* distortion, const T* pose, T* residual) const {
     const Vector2<T> expected =
-        pixel(camera, distortion, ellipse_centre(plate_in_camera(pose, start), point, radius));
+        seen_centre(camera, distortion, plate_in_camera(pose, start), point, radius);
     residual[0] = (expected.x() - seen.x()) / deviation;
     residual[1] = (expected.y() - seen.y()) / deviation;
     return true;

@@ -14,7 +14,9 @@ namespace arcstart {
 namespace {
 
 constexpr double kDegree = std::numbers::pi / 180;
-constexpr int kStripePoints = 100;  // of a view; neighbours share their noise
+// Of a view. A centre is an average over its kernel's length, and a stripe's own errors run on for
+// longer: more of them would count one error many times over.
+constexpr int kStripePoints = 40;
 constexpr std::size_t kFewestStripes = 3;
 constexpr double kLeastLaserSpread = 0.02;
 constexpr std::size_t kFewestCameraViews = 3;
@@ -141,8 +143,10 @@ std::string adjust_all(const Plate& plate, CalibrationRun& run) {
     Deviations deviations;
     deviations.pixel = std::max(0.02, run.camera.rms / std::numbers::sqrt2);
     if (run.has_laser) deviations.laser_mm = std::max(0.01, run.laser_apart.rms_mm);
-    deviations.robot_mm = std::max(0.05, first.consistency_mm / std::numbers::sqrt3);
-    deviations.robot_rad = deviations.robot_mm / run.spread.farthest_mm;
+    // The robot is believed at first: where both a good robot and a bad one could explain the data,
+    // the good one is likelier.
+    deviations.robot_mm = 0.1;
+    deviations.robot_rad = 2e-4;
     run.adjustment = adjust(
         plate, run.views,
         {run.camera.model, first.T_tool_camera, first.T_base_plate, run.camera.T_camera_plate},

@@ -42,8 +42,8 @@ std::vector<cv::Point3f> model_points(const Plate& plate) {
 Eigen::Vector2d seen_as(const SensorModel& model, const RigidTransform& pose,
                         const Eigen::Vector3d& point, double radius) {
   const std::array<double, 4> camera{model.fx, model.fy, model.cx, model.cy};
-  return pixel<double>(camera.data(), model.distortion.data(),
-                       ellipse_centre<double>({pose.linear(), pose.translation()}, point, radius));
+  return seen_centre<double>(camera.data(), model.distortion.data(),
+                             {pose.linear(), pose.translation()}, point, radius);
 }
 
 // What was seen, as if each circle's centre had been seen instead of its ellipse's.

@@ -33,7 +33,7 @@ std::optional<std::size_t> odd_turn(const std::vector<double>& disagreement) {
 
 std::optional<std::size_t> odd_pose(const Adjustment& adjustment) {
   constexpr std::size_t kFewest = 6;  // with less, who is right cannot be told
-  constexpr double kOdd = 8;          // mean square of a correction over its expectation
+  constexpr double kOdd = 6;          // mean square of a correction over its expectation
   if (adjustment.robot.size() < kFewest) return std::nullopt;
   double translations = 0, rotations = 0, translation_free = 0, rotation_free = 0;
   for (const RobotCorrection& c : adjustment.robot) {

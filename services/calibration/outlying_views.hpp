@@ -15,7 +15,7 @@ std::optional<std::size_t> odd_image(const std::vector<double>& view_rms);
 std::optional<std::size_t> odd_turn(const std::vector<double>& disagreement);
 
 // A view whose robot stood elsewhere than the others say it stood: its correction, in standard
-// deviations that it had no part in, is one of chance once in some 10 000 sets.
+// deviations that it had no part in, is one of chance once in a thousand sets.
 std::optional<std::size_t> odd_pose(const Adjustment& adjustment);
 
 }  // namespace arcstart

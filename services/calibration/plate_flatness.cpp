@@ -24,8 +24,8 @@ PlateFlatness plate_flatness(const Plate& plate, const std::vector<View>& views,
       const auto number = static_cast<std::size_t>(k);
       const auto seen_at = [&](double height) {
         const Eigen::Vector3d point = points[number] - height * Eigen::Vector3d::UnitZ();
-        return pixel<double>(camera.data(), model.distortion.data(),
-                             ellipse_centre<double>(pose, point, plate.radius(k)));
+        return seen_centre<double>(camera.data(), model.distortion.data(), pose, point,
+                                   plate.radius(k));
       };
       constexpr double kStep = 0.01;  // mm
       const Eigen::Vector2d slope = (seen_at(kStep) - seen_at(-kStep)) / (2 * kStep);

@@ -14,8 +14,8 @@ constexpr double kDegree = std::numbers::pi / 180;
 constexpr int kFewestViews = 5;
 constexpr double kLeastTilt = 5, kLeastRotation = 15;  // deg
 constexpr double kLeastAxisRatio = 0.1;
-constexpr int kFreeCameraViews = 10;
-constexpr double kFreeCameraRotation = 45;  // deg
+constexpr int kFreeCameraViews = 7;
+constexpr double kFreeCameraRotation = 30;  // deg
 
 }  // namespace
 

@@ -52,7 +52,7 @@ Points find_chessboard(const cv::Mat& grey, const Plate& plate) {
   for (int i = 0; i + 1 < plate.rows; ++i)
     shortest =
         std::min(shortest, cv::norm(corners[(i + 1) * plate.columns] - corners[i * plate.columns]));
-  const int half = std::clamp(static_cast<int>(shortest / 4), 2, 11);
+  const int half = std::clamp(static_cast<int>(shortest / 8), 2, 7);
   cv::cornerSubPix(grey, corners, {half, half}, {-1, -1},
                    cv::TermCriteria(cv::TermCriteria::COUNT | cv::TermCriteria::EPS, 100, 1e-4));
   return corners;

@@ -1,0 +1,106 @@
+#include "tests/bench/simulated_plate.hpp"
+
+#include <opencv2/core.hpp>
+
+#include "services/calibration/view_images.hpp"
+#include "services/cell_simulator/random_stream.hpp"
+
+namespace arcstart::test {
+namespace {
+
+constexpr double kDegree = EIGEN_PI / 180;
+
+Eigen::Matrix3d turn(double degrees, const Eigen::Vector3d& axis) {
+  return Eigen::AngleAxisd(degrees * kDegree, axis).toRotationMatrix();
+}
+
+}  // namespace
+
+Plate plate_of(const PrintedPlate& printed) {
+  Plate plate;
+  plate.pattern = printed.staggered ? PlatePattern::asymmetric_circles : PlatePattern::circles;
+  plate.columns = printed.columns;
+  plate.rows = printed.rows;
+  plate.pitch_mm = printed.pitch_mm;
+  plate.radius_mm = printed.dot_radius_mm;
+  return plate;
+}
+
+std::vector<RigidTransform> draw_poses(const PlateImages& images, const PrintedPlate& plate,
+                                       const PoseRange& range, int count, std::uint64_t seed) {
+  constexpr double kStandOff = 300, kAside = 8;  // mm
+  Eigen::Vector3d middle = Eigen::Vector3d::Zero();
+  const auto all = dots(plate);
+  for (const Eigen::Vector3d& dot : all) middle += dot / static_cast<double>(all.size());
+  RandomStream random(seed, 31);
+  std::vector<RigidTransform> poses;
+  while (static_cast<int>(poses.size()) < count) {
+    const double azimuth = 360.0 / count * (static_cast<double>(poses.size()) + random.uniform());
+    const double tilt = random.uniform(range.least_tilt_deg, range.most_tilt_deg);
+    const double roll = random.uniform(-range.roll_deg, range.roll_deg);
+    const double distance = kStandOff * random.uniform(range.nearest, range.farthest);
+    const Eigen::Vector3d axis = turn(azimuth, Eigen::Vector3d::UnitZ()) * Eigen::Vector3d::UnitX();
+    RigidTransform pose = RigidTransform::Identity();
+    pose.linear() = turn(tilt, axis) * turn(roll, Eigen::Vector3d::UnitZ());
+    pose.translation() = Eigen::Vector3d(random.uniform(-kAside, kAside),
+                                         random.uniform(-kAside, kAside), distance) -
+                         pose.linear() * middle;
+    if (images.shows_all(pose)) poses.push_back(pose);
+  }
+  return poses;
+}
+
+RigidTransform true_T_base_plate() {
+  RigidTransform pose = RigidTransform::Identity();
+  pose.linear() = turn(180, Eigen::Vector3d::UnitX()) * turn(17, Eigen::Vector3d::UnitZ());
+  pose.translation() = Eigen::Vector3d(905, 60, 12);
+  return pose;
+}
+
+RigidTransform said_pose(const RigidTransform& T_base_tool, double error_mm, double error_deg,
+                         std::uint64_t seed, int pose) {
+  RandomStream random(seed, 1000 + static_cast<std::uint64_t>(pose));
+  Eigen::Vector3d shift, twist;
+  for (double& value : shift) value = error_mm * random.normal();
+  for (double& value : twist) value = error_deg * kDegree * random.normal();
+  RigidTransform said = T_base_tool;
+  said.translation() += shift;
+  if (twist.norm() > 0)
+    said.linear() =
+        Eigen::AngleAxisd(twist.norm(), twist.normalized()).toRotationMatrix() * said.linear();
+  return said;
+}
+
+std::vector<View> rendered_views(PlateImages& images, const PrintedPlate& plate,
+                                 const std::vector<RigidTransform>& T_camera_plate,
+                                 std::uint64_t seed) {
+  const TrueSensor& sensor = images.sensor();
+  std::vector<View> views;
+  for (std::size_t i = 0; i < T_camera_plate.size(); ++i) {
+    std::vector<std::uint8_t> grid = images.grid(T_camera_plate[i], seed * 100 + i),
+                              laser = images.laser(T_camera_plate[i], seed * 100 + i);
+    CalibrationPose pose;
+    pose.index = static_cast<int>(i) + 1;
+    pose.T_base_tool =
+        true_T_base_plate() * T_camera_plate[i].inverse() * sensor.T_tool_camera.inverse();
+    views.push_back(look_at_pose(pose, plate_of(plate),
+                                 cv::Mat(sensor.height, sensor.width, CV_8U, grid.data()),
+                                 cv::Mat(sensor.height, sensor.width, CV_8U, laser.data())));
+  }
+  return views;
+}
+
+std::vector<ProbePoint> probe_points(const TrueSensor& sensor) {
+  std::vector<ProbePoint> points;
+  for (const double z : {270.0, 285.0, 300.0, 315.0, 330.0})
+    for (const double share : {0.1, 0.3, 0.5, 0.7, 0.9}) {
+      const double x = (share * sensor.width - sensor.cx) / sensor.fx * z;
+      const Eigen::Vector3d& n = sensor.laser_normal;
+      const double y = -(sensor.laser_offset + n.x() * x + n.z() * z) / n.y();
+      const Eigen::Vector3d point(x, y, z);
+      points.push_back({see(sensor, point).value(), point, sensor.T_tool_camera * point});
+    }
+  return points;
+}
+
+}  // namespace arcstart::test
