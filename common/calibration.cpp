@@ -3,6 +3,28 @@
 #include <cmath>
 
 namespace arcstart {
+namespace {
+
+std::string covariance_error(const std::vector<double>& covariance) {
+  constexpr std::size_t n = Calibration::kParameters;
+  if (covariance.empty()) return "";
+  if (covariance.size() != n * n) return "the covariance must have 19 rows of 19 numbers";
+  for (const double number : covariance)
+    if (!std::isfinite(number)) return "the covariance is not finite";
+  constexpr double kTolerance = 1e-9;
+  for (std::size_t i = 0; i < n; ++i) {
+    if (covariance[i * n + i] < 0) return "the covariance has a variance below 0";
+    for (std::size_t j = 0; j < i; ++j) {
+      const double limit = std::sqrt(covariance[i * n + i] * covariance[j * n + j]);
+      if (std::abs(covariance[i * n + j] - covariance[j * n + i]) > kTolerance * limit ||
+          std::abs(covariance[i * n + j]) > (1 + kTolerance) * limit)
+        return "the covariance is not symmetric or says more than 1 of a correlation";
+    }
+  }
+  return "";
+}
+
+}  // namespace
 
 std::string calibration_error(const Calibration& calibration) {
   constexpr double kLongestLever = 1e4;  // mm: no camera sits ten metres from its tool
@@ -20,7 +42,7 @@ std::string calibration_error(const Calibration& calibration) {
                                 calibration.hand_eye_residual})
     if (!std::isfinite(residual) || (residual < 0 && residual != -1))
       return "a residual must not be below 0, or be -1 where it is not known";
-  return "";
+  return covariance_error(calibration.covariance);
 }
 
 std::string instance_error(const Calibration& calibration, const std::string& sensor,

@@ -4,6 +4,7 @@
 
 #include <cstdint>
 #include <string>
+#include <vector>
 
 #include "common/geometry.hpp"
 #include "common/sensor_model.hpp"
@@ -23,6 +24,12 @@ struct Calibration {
   double laser_plane_residual = -1;  // RMS distance of its points; mm, -1 where not known
   double hand_eye_residual = -1;  // RMS consistency of the target in base; mm, -1 where not known
   std::string origin;             // how it was made, for people
+
+  // Covariance of the set, row by row: fx fy cx cy; k1 k2 p1 p2 k3; tilt of the laser plane's
+  // normal about two axes in it, d; hand-eye's rotation vector in tool and position; time offset.
+  // px, 1, rad, mm, s squared. Empty where not known.
+  static constexpr int kParameters = 19;
+  std::vector<double> covariance;
 };
 
 // Why the set cannot be used (no id, a number impossible, a sensor that cannot be); empty where it

@@ -29,7 +29,13 @@ calibration_t to_message(const Calibration& calibration) {
   message.camera_residual = calibration.camera_residual;
   message.laser_plane_residual = calibration.laser_plane_residual;
   message.hand_eye_residual = calibration.hand_eye_residual;
-  message.covariance_size = 0;
+  constexpr int n = Calibration::kParameters;
+  static_assert(n == calibration_t::PARAMETERS);
+  message.covariance_size = calibration.covariance.empty() ? 0 : n;
+  message.covariance.assign(static_cast<std::size_t>(message.covariance_size), {});
+  for (int row = 0; row < message.covariance_size; ++row)
+    message.covariance[static_cast<std::size_t>(row)].assign(
+        calibration.covariance.begin() + row * n, calibration.covariance.begin() + (row + 1) * n);
   message.origin = calibration.origin;
   return message;
 }
@@ -61,6 +67,9 @@ Calibration calibration_from_message(const calibration_t& message) {
   calibration.camera_residual = message.camera_residual;
   calibration.laser_plane_residual = message.laser_plane_residual;
   calibration.hand_eye_residual = message.hand_eye_residual;
+
+  for (const auto& row : message.covariance)
+    calibration.covariance.insert(calibration.covariance.end(), row.begin(), row.end());
 
   if (const std::string error = calibration_error(calibration); !error.empty())
     throw CalibrationError(error);

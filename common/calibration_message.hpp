@@ -13,7 +13,7 @@ class CalibrationError : public std::runtime_error {
   using std::runtime_error::runtime_error;
 };
 
-// M is derived here. The covariance is left out (size 0).
+// M is derived here.
 calibration_t to_message(const Calibration& calibration);
 
 // Throws CalibrationError, with why, where the set cannot be used or its M is not the one that

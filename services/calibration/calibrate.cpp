@@ -7,6 +7,7 @@
 #include <numbers>
 #include <stdexcept>
 
+#include "services/calibration/calibration_result.hpp"
 #include "services/calibration/outlying_views.hpp"
 #include "services/calibration/plate_turns.hpp"
 
@@ -173,6 +174,7 @@ void judge(const Plate& plate, const CalibrateOptions& options, CalibrationRun& 
         "camera and hand-eye apart",
         run.spread.views, run.spread.rotation_deg));
   run.advice = spread_advice(run.spread);
+  run.hand_eye_residual_mm = hand_eye_residual(plate, run);
   run.flatness = plate_flatness(plate, run.views, run.adjustment.state);
   if (run.flatness.bend_mm > std::max(0.05, 6 * run.flatness.deviation_mm))
     run.warnings.push_back(

@@ -36,6 +36,8 @@ struct CalibrationRun {
   double crossing_rms_mm = 0;          // between where they put the stripe and where rays do
   std::vector<HandEyeMethod> methods;  // closed forms, on the same views
   Adjustment adjustment;
+  double hand_eye_residual_mm = 0;  // RMS of the plate's points, as the robot's word carries
+                                    // them to base, from where the set puts them
   LeaveOneOut left_one_out, plain_left_one_out;  // of the adjustment; of the plain way with Park
   PlateFlatness flatness;
   std::vector<PredictedError> field;

@@ -13,10 +13,10 @@
 namespace arcstart {
 namespace {
 
-constexpr std::size_t kLargestFile = 65536;  // bytes; a calibration has about 700
+constexpr std::size_t kLargestFile = 65536;  // bytes; a calibration has about 700, with its
+                                             // covariance 8000
 
-// The file's keys as a section of the configuration, which reads them strictly. None may be left
-// out.
+// The file's keys as a section of the configuration, which reads them strictly.
 struct FileContent {
   std::string id, sensor, robot, tool, made, origin;
   int width = 0, height = 0;
@@ -27,6 +27,7 @@ struct FileContent {
   std::array<double, 4> camera_quaternion{};
   double time_offset = 0;
   double camera_residual = 0, laser_plane_residual = 0, hand_eye_residual = 0;
+  std::vector<double> covariance;  // may be left out
 
   template <class Visitor>
   void visit(Visitor& visitor) {
@@ -115,6 +116,7 @@ Calibration to_calibration(const FileContent& content, const std::string& name) 
   calibration.camera_residual = content.camera_residual;
   calibration.laser_plane_residual = content.laser_plane_residual;
   calibration.hand_eye_residual = content.hand_eye_residual;
+  calibration.covariance = content.covariance;
   return calibration;
 }
 
@@ -132,6 +134,7 @@ Calibration parse_calibration(const std::string& text, const std::string& name) 
     SectionReader reader(name, "calibration", root);
     StrictReader strict{reader, root, name};
     content.visit(strict);
+    reader("covariance", content.covariance);
     reader.refuse_unknown_keys();
   } catch (const YAML::Exception& error) {
     throw CalibrationFileError(

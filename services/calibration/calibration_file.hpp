@@ -18,6 +18,8 @@
 //     camera_residual: -1           px, -1 where not known
 //     laser_plane_residual: -1      mm
 //     hand_eye_residual: -1         mm
+//     covariance: [...]             19 rows of 19, row by row, as calibration_t orders them; may be
+//                                   left out
 //
 // Camera, laser plane and hand-eye are one set: the id tells when a part of it was exchanged by
 // hand.
@@ -36,12 +38,15 @@ class CalibrationFileError : public std::runtime_error {
   using std::runtime_error::runtime_error;
 };
 
-// The calibration that a file's whole text says; name stands in errors. Every key must be there,
-// once, of its type and possible, and the id must fit. Throws CalibrationFileError and nothing
-// else, whatever the bytes.
+// The calibration that a file's whole text says; name stands in errors. Every key but the
+// covariance must be there, once, of its type and possible, and the id must fit. Throws
+// CalibrationFileError and nothing else, whatever the bytes.
 Calibration parse_calibration(const std::string& text, const std::string& name);
 
 // Reads and parses. Throws CalibrationFileError.
 Calibration read_calibration_file(const std::string& path);
+
+// The whole text of a calibration's file; its id is made here, that of `calibration` ignored.
+std::string calibration_file_text(const Calibration& calibration);
 
 }  // namespace arcstart

@@ -1,6 +1,7 @@
 #pragma once
 
 #include "common/configuration.hpp"
+#include "services/calibration/calibration_limits.hpp"
 
 namespace arcstart {
 
@@ -8,10 +9,12 @@ namespace arcstart {
 struct CalibrationSettings {
   std::string file = "calibration.yaml";  // the cell's calibration; looked at every second, so that
                                           // a new one is taken
+  CalibrationLimits limits;               // what `arcstart calibrate` asks of a new one
 
   template <class Visitor>
   void visit(Visitor& visitor) {
     visitor("file", file);
+    limits.visit(visitor, positive());
   }
 };
 

@@ -7,6 +7,7 @@
 
 #include "common/bus.hpp"
 #include "common/configuration.hpp"
+#include "services/command_line/calibrate_command.hpp"
 #include "services/command_line/cell_command.hpp"
 #include "services/command_line/extract_command.hpp"
 #include "services/command_line/find_seam_command.hpp"
@@ -29,6 +30,7 @@ int main(int argc, char** argv) {
   add_replay_command(program, exit_code);
   add_extract_command(program, exit_code);
   add_find_seam_command(program, exit_code);
+  add_calibrate_command(program, exit_code);
   add_monitor_command(program, exit_code);
   add_cell_command(program, exit_code);
   try {
