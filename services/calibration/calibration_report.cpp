@@ -48,8 +48,11 @@ std::string figures(const CalibrationRun& run, const CalibrationLimits& limits) 
         "Predicted deviation of a laser point in base, worst", fmt::format("{:.3f} mm", worst),
         fmt::format("robot and stripe taken as exact; limit {}", limits.predicted_deviation_mm));
     text += row("Laser plane, RMS of its points", fmt::format("{:.4f} mm", a.laser_rms),
-                fmt::format("fitted apart {:.4f}; {} crossings of stripe and grid differ by {:.4f}",
-                            run.laser_apart.rms_mm, run.crossings, run.crossing_rms_mm));
+                fmt::format("fitted apart {:.4f}; {}", run.laser_apart.rms_mm,
+                            run.crossings == 0
+                                ? std::string("the stripe crosses no line of the grid")
+                                : fmt::format("{} crossings of stripe and grid differ by {:.4f}",
+                                              run.crossings, run.crossing_rms_mm)));
   }
   text +=
       row("Plate's points carried to base, RMS", fmt::format("{:.3f} mm", run.hand_eye_residual_mm),

@@ -33,7 +33,7 @@ struct Cell {
     REQUIRE(mkdtemp(name.data()) != nullptr);
     folder = name;
     file = name + "/calibration.yaml";
-    app = std::make_unique<CalibrationApp>(*bus, CalibrationSettings{file}, Instance{});
+    app = std::make_unique<CalibrationApp>(*bus, CalibrationSettings{file, {}}, Instance{});
     bus->subscribe_pattern(
         "LASER0_CALIBRATION", Queue::measurements(),
         [this](const auto& message, const std::string&) { bytes.push_back(message); });

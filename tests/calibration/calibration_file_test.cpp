@@ -189,3 +189,29 @@ TEST_CASE("a file is read from disk, and one that is not there is told") {
   CHECK_THROWS_AS(read_calibration_file(std::filesystem::temp_directory_path()),
                   CalibrationFileError);
 }
+
+TEST_CASE("what is written is read again, covariance and all") {
+  Calibration calibration = parse_calibration(with_id(kContent), "cal.yaml");
+  constexpr int n = Calibration::kParameters;
+  calibration.covariance.assign(n * n, 0);
+  for (int i = 0; i < n; ++i)
+    for (int j = 0; j < n; ++j)
+      calibration.covariance[static_cast<std::size_t>(i * n + j)] =
+          (i == j ? 1.0 : 0.3) * (i + 1) * (j + 1) * 1e-3;
+  calibration.origin = "a \"quoted\": origin # of\nlines";
+  const Calibration again = parse_calibration(calibration_file_text(calibration), "new.yaml");
+  CHECK(again.covariance == calibration.covariance);
+  CHECK(again.origin == calibration.origin);
+  CHECK(again.made == calibration.made);
+  CHECK(again.sensor_model.fy == calibration.sensor_model.fy);
+  CHECK(again.sensor_model.distortion == calibration.sensor_model.distortion);
+  CHECK(again.T_tool_camera.isApprox(calibration.T_tool_camera, 1e-15));
+  CHECK(again.id != calibration.id);
+
+  calibration.covariance[1] = 1;
+  CHECK_THROWS_WITH(parse_calibration(calibration_file_text(calibration), "new.yaml"),
+                    Contains("symmetric"));
+  calibration.covariance.resize(18);
+  CHECK_THROWS_WITH(parse_calibration(calibration_file_text(calibration), "new.yaml"),
+                    Contains("19 rows"));
+}
