@@ -1,6 +1,11 @@
 #include "tests/bench/simulated_plate.hpp"
 
+#include <fmt/format.h>
+
+#include <filesystem>
+#include <fstream>
 #include <opencv2/core.hpp>
+#include <opencv2/imgcodecs.hpp>
 
 #include "services/calibration/view_images.hpp"
 #include "services/cell_simulator/random_stream.hpp"
@@ -71,6 +76,10 @@ RigidTransform said_pose(const RigidTransform& T_base_tool, double error_mm, dou
   return said;
 }
 
+RigidTransform tool_pose(const TrueSensor& sensor, const RigidTransform& T_camera_plate) {
+  return true_T_base_plate() * T_camera_plate.inverse() * sensor.T_tool_camera.inverse();
+}
+
 std::vector<View> rendered_views(PlateImages& images, const PrintedPlate& plate,
                                  const std::vector<RigidTransform>& T_camera_plate,
                                  std::uint64_t seed) {
@@ -81,13 +90,40 @@ std::vector<View> rendered_views(PlateImages& images, const PrintedPlate& plate,
                               laser = images.laser(T_camera_plate[i], seed * 100 + i);
     CalibrationPose pose;
     pose.index = static_cast<int>(i) + 1;
-    pose.T_base_tool =
-        true_T_base_plate() * T_camera_plate[i].inverse() * sensor.T_tool_camera.inverse();
+    pose.T_base_tool = tool_pose(sensor, T_camera_plate[i]);
     views.push_back(look_at_pose(pose, plate_of(plate),
                                  cv::Mat(sensor.height, sensor.width, CV_8U, grid.data()),
                                  cv::Mat(sensor.height, sensor.width, CV_8U, laser.data())));
   }
   return views;
+}
+
+void write_folder(const std::string& folder, PlateImages& images, const PrintedPlate& plate,
+                  const std::vector<RigidTransform>& T_camera_plate, double error_mm,
+                  double error_deg, std::uint64_t seed) {
+  const std::filesystem::path root(folder);
+  const TrueSensor& sensor = images.sensor();
+  for (const char* name : {"grid", "laser"}) std::filesystem::create_directories(root / name);
+  std::ofstream(root / "plate.yaml")
+      << fmt::format("pattern: {}\ncolumns: {}\nrows: {}\npitch_mm: {}\nradius_mm: {}\n",
+                     plate.staggered ? "asymmetric_circles" : "circles", plate.columns, plate.rows,
+                     plate.pitch_mm, plate.dot_radius_mm);
+  std::ofstream poses(root / "poses.csv");
+  poses << "index,x,y,z,qw,qx,qy,qz\n";
+  for (std::size_t i = 0; i < T_camera_plate.size(); ++i) {
+    const int index = static_cast<int>(i) + 1;
+    double p[3], q[4];
+    transform_to_arrays(
+        said_pose(tool_pose(sensor, T_camera_plate[i]), error_mm, error_deg, seed, index), p, q);
+    poses << fmt::format("{},{:.6f},{:.6f},{:.6f},{:.9f},{:.9f},{:.9f},{:.9f}\n", index, p[0], p[1],
+                         p[2], q[0], q[1], q[2], q[3]);
+    const auto write = [&](const char* name, std::vector<std::uint8_t> grey) {
+      cv::imwrite((root / name / fmt::format("{:04}.png", index)).string(),
+                  cv::Mat(sensor.height, sensor.width, CV_8U, grey.data()));
+    };
+    write("grid", images.grid(T_camera_plate[i], seed * 100 + i));
+    write("laser", images.laser(T_camera_plate[i], seed * 100 + i));
+  }
 }
 
 std::vector<ProbePoint> probe_points(const TrueSensor& sensor) {

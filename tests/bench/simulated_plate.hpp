@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstdint>
+#include <string>
 #include <vector>
 
 #include "services/calibration/plate.hpp"
@@ -26,6 +27,9 @@ std::vector<RigidTransform> draw_poses(const PlateImages& images, const PrintedP
 // Where the plate lies in base.
 RigidTransform true_T_base_plate();
 
+// The true tool pose of a view.
+RigidTransform tool_pose(const TrueSensor& sensor, const RigidTransform& T_camera_plate);
+
 // What the robot says: the truth with a normal error per axis, translation in base, rotation about
 // the tool centre point.
 RigidTransform said_pose(const RigidTransform& T_base_tool, double error_mm, double error_deg,
@@ -35,6 +39,11 @@ RigidTransform said_pose(const RigidTransform& T_base_tool, double error_mm, dou
 std::vector<View> rendered_views(PlateImages& images, const PrintedPlate& plate,
                                  const std::vector<RigidTransform>& T_camera_plate,
                                  std::uint64_t seed);
+
+// The same as files: plate.yaml, poses.csv with what the robot says, grid/ and laser/.
+void write_folder(const std::string& folder, PlateImages& images, const PrintedPlate& plate,
+                  const std::vector<RigidTransform>& T_camera_plate, double error_mm,
+                  double error_deg, std::uint64_t seed);
 
 // 25 points of the laser plane at 270 to 330 mm: where they are seen, and where they are in tool.
 struct ProbePoint {
