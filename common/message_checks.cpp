@@ -175,6 +175,27 @@ std::string meaning_error(const calibration_t& m) {
   return checks.error();
 }
 
+std::string meaning_error(const calibration_command_t& m) {
+  Checks checks;
+  checks.require(m.utime > 0 && m.command_id != 0, "utime or command_id is 0")
+      .require(
+          m.action >= calibration_command_t::CAPTURE && m.action <= calibration_command_t::SOLVE,
+          "unknown action")
+      .require(m.pose >= -1, "pose below -1");
+  return checks.error();
+}
+
+std::string meaning_error(const calibration_capture_t& m) {
+  Checks checks;
+  checks.require(m.utime > 0 && m.run_id > 0, "utime or run_id below 0")
+      .require(m.state >= calibration_capture_t::IDLE && m.state <= calibration_capture_t::SOLVING,
+               "unknown state");
+  for (const auto& pose : m.poses)
+    checks.require(std::isfinite(pose.tilt) && std::isfinite(pose.roll) && is_length(pose.distance),
+                   "pose not finite");
+  return checks.error();
+}
+
 std::string meaning_error(const seam_t& m) {
   Checks checks;
   checks
@@ -202,8 +223,9 @@ std::string meaning_error(const service_status_t& m) {
 std::string meaning_error(const cell_command_t& m) {
   Checks checks;
   checks.require(m.utime > 0 && m.command_id != 0, "utime or command_id is 0")
-      .require(m.scene >= cell_command_t::KEEP && m.scene <= cell_command_t::WORKPIECE,
-               "unknown scene")
+      .require(m.scene >= cell_command_t::KEEP && m.scene <= cell_command_t::PLATE, "unknown scene")
+      .require(m.plate_pose >= 0 && m.plate_pose <= 10000,
+               "plate_pose must lie between 0 and 10000")
       .require(!m.move || (are_lengths(m.position) && is_unit(m.quaternion, 4)),
                "pose not finite or not of unit length");
   return checks.error();

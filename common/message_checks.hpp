@@ -2,6 +2,8 @@
 // that exist. Each returns why the message has no meaning, empty where it has.
 #pragma once
 
+#include <arcstart/calibration_capture_t.hpp>
+#include <arcstart/calibration_command_t.hpp>
 #include <arcstart/calibration_t.hpp>
 #include <arcstart/camera_command_t.hpp>
 #include <arcstart/cell_command_t.hpp>
@@ -26,6 +28,8 @@ std::string meaning_error(const scan_t& message);
 std::string meaning_error(const scan_command_t& message);
 std::string meaning_error(const camera_command_t& message);
 std::string meaning_error(const calibration_t& message);
+std::string meaning_error(const calibration_command_t& message);
+std::string meaning_error(const calibration_capture_t& message);
 std::string meaning_error(const seam_t& message);
 std::string meaning_error(const service_status_t& message);
 std::string meaning_error(const cell_command_t& message);

@@ -16,10 +16,18 @@ bool due(std::int64_t now, std::int64_t last) { return now - last >= kPeriod || 
 }  // namespace
 
 CalibrationApp::CalibrationApp(Bus& bus, const CalibrationSettings& settings,
-                               const Instance& instance)
-    : bus_(bus), settings_(settings), instance_(instance) {}
+                               const Instance& instance, std::int64_t run_id)
+    : bus_(bus), settings_(settings), instance_(instance) {
+  if (settings.plate.empty()) return;
+  try {
+    desk_ = std::make_unique<CaptureDesk>(bus, settings, instance, run_id);
+  } catch (const CalibrationSetError& error) {
+    throw ConfigurationError(error.what());
+  }
+}
 
 void CalibrationApp::tick(std::int64_t now_utime) {
+  if (desk_) desk_->tick(now_utime);
   if (due(now_utime, last_look_)) {
     last_look_ = now_utime;
     look_at_file();

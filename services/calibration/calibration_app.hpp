@@ -3,21 +3,25 @@
 #include <arcstart/calibration_t.hpp>
 #include <cstdint>
 #include <filesystem>
+#include <memory>
 #include <optional>
 #include <string>
 
 #include "common/bus.hpp"
 #include "common/service.hpp"
 #include "services/calibration/calibration_settings.hpp"
+#include "services/calibration/capture_desk.hpp"
 
 namespace arcstart {
 
 // Gives <SENSOR>_CALIBRATION once a second, byte for byte the same, and at once when its file has
-// changed. Without a usable file it waits for one.
+// changed. Without a usable file it waits for one. Where a plate is configured, a calibration can
+// be made here, too (capture_desk.hpp).
 class CalibrationApp : public App {
  public:
-  // The bus outlives the app.
-  CalibrationApp(Bus& bus, const CalibrationSettings& settings, const Instance& instance);
+  // The bus outlives the app. Throws ConfigurationError where plate or folder cannot be used.
+  CalibrationApp(Bus& bus, const CalibrationSettings& settings, const Instance& instance,
+                 std::int64_t run_id);
 
   void tick(std::int64_t now_utime) override;
   Health health() const override;
@@ -39,6 +43,7 @@ class CalibrationApp : public App {
   std::optional<FileStamp> taken_;              // of the file that was read last and was good
   std::optional<calibration_t> message_;        // the calibration in force
   std::string file_error_;                      // why the file cannot be used now
+  std::unique_ptr<CaptureDesk> desk_;           // none where no plate is configured
 };
 
 }  // namespace arcstart

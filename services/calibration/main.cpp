@@ -4,9 +4,10 @@
 int main(int argc, char** argv) {
   using namespace arcstart;
   return run_service(
-      argc, argv, {"calibration", "reads the cell's calibration file and publishes it"},
+      argc, argv, {"calibration", "publishes the cell's calibration, and makes one from a plate"},
       [](ServiceContext& context) -> std::unique_ptr<App> {
         const auto settings = context.settings<CalibrationSettings>("calibration");
-        return std::make_unique<CalibrationApp>(context.bus, settings, context.instance);
+        return std::make_unique<CalibrationApp>(context.bus, settings, context.instance,
+                                                context.run_id);
       });
 }

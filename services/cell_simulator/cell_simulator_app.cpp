@@ -72,7 +72,13 @@ void CellSimulatorApp::carry_out(const cell_command_t& command, std::int64_t now
   try {
     if (command.move && !cell_.reaches(pose))
       throw std::runtime_error("the arm does not reach this pose");
-    if (command.scene != cell_command_t::KEEP || command.seed >= 0) {
+    if (command.scene == cell_command_t::PLATE) {
+      const auto seed = command.seed < 0 ? cell_.seed() : static_cast<std::uint64_t>(command.seed);
+      if (!cell_.shows_plate() || seed != cell_.seed()) cell_.put_plate(seed);
+      if (command.plate_pose > 0 && !cell_.go_to_plate_pose(now, command.plate_pose))
+        throw std::runtime_error(
+            fmt::format("no pose {} of the plate can be reached", command.plate_pose));
+    } else if (command.scene != cell_command_t::KEEP || command.seed >= 0) {
       const SceneKind kind = command.scene == cell_command_t::KEEP         ? cell_.kind()
                              : command.scene == cell_command_t::BACKGROUND ? SceneKind::background
                                                                            : SceneKind::workpiece;
@@ -100,10 +106,11 @@ truth_t CellSimulatorApp::truth(std::int64_t now) const {
   truth_t truth{};
   truth.utime = now;
   truth.command_id = command_id_;
-  truth.scene =
-      cell_.kind() == SceneKind::workpiece ? cell_command_t::WORKPIECE : cell_command_t::BACKGROUND;
+  truth.scene = cell_.shows_plate()                    ? cell_command_t::PLATE
+                : cell_.kind() == SceneKind::workpiece ? cell_command_t::WORKPIECE
+                                                       : cell_command_t::BACKGROUND;
   truth.seed = static_cast<std::int64_t>(cell_.seed());
-  if (const auto& seam = cell_.seam()) {
+  if (const auto& seam = cell_.seam(); seam && !cell_.shows_plate()) {
     truth.joint_type = seam->joint_type;
     copy(seam->start, truth.start);
     copy(seam->end, truth.end);

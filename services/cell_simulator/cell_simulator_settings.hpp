@@ -38,6 +38,10 @@ struct CellSimulatorSettings {
   double position_noise_mm = 0.02;  // standard deviation on x, y and z each
   double robot_clock_start_s = 1234;
   double robot_clock_drift_ppm = -9;
+  // How far the controller is wrong in a pose of the calibration: standard deviations an axis, of
+  // the place in base and of the turn about the tool centre point, drawn anew for each.
+  double robot_error_mm = 0;
+  double robot_error_deg = 0;
   std::string tool = "TCP1";  // name of the tool frame, for the calibration file
   std::array<double, 3> tool_mm{31.5, -4.2, 297.8};  // tool centre point in the flange frame tool0
   std::array<double, 3> tool_wpr_deg{1.3, 28.4, -2.1};  // W, P, R of the tool there
@@ -79,6 +83,8 @@ struct CellSimulatorSettings {
     visitor("position_noise_mm", position_noise_mm, between(0, 10));
     visitor("robot_clock_start_s", robot_clock_start_s, between(0, 1e9));
     visitor("robot_clock_drift_ppm", robot_clock_drift_ppm, between(-1000, 1000));
+    visitor("robot_error_mm", robot_error_mm, between(0, 10));
+    visitor("robot_error_deg", robot_error_deg, between(0, 5));
     visitor("tool", tool);
     visitor("tool_mm", tool_mm);
     visitor("tool_wpr_deg", tool_wpr_deg);

@@ -14,7 +14,6 @@ constexpr double paper_grey = 190, ink_grey = 25, beyond_grey = 55;
 constexpr double shade = 0.12;        // the lamp's fall from one side of the image to the other
 constexpr double paper_albedo = 0.8;  // to the laser
 constexpr double ink_share = 0.35;    // of the paper's light that ink sends back, to the laser
-constexpr double laser_exposure_us = 1000;
 constexpr double thickness_mm = 3;
 
 double extent_x(const PrintedPlate& plate) {
@@ -167,7 +166,8 @@ std::vector<float> PlateImages::ink(const RigidTransform& T_camera_plate) const 
 }
 
 std::vector<std::uint8_t> PlateImages::grid(const RigidTransform& T_camera_plate,
-                                            std::uint64_t seed, const Glare& glare) const {
+                                            std::uint64_t seed, const Glare& glare,
+                                            double exposure_us) const {
   const TrueSensor& s = sensor();
   const std::vector<float> print = ink(T_camera_plate);
   static const std::vector<float> normals = [] {
@@ -182,7 +182,8 @@ std::vector<std::uint8_t> PlateImages::grid(const RigidTransform& T_camera_plate
     const std::size_t place = places.next() % (normals.size() - static_cast<std::size_t>(s.width));
     for (int u = 0; u < s.width; ++u) {
       const std::size_t i = std::size_t(v) * s.width + u;
-      const double lamp = 1 + shade * (double(u) / s.width - 0.5);
+      const double lamp =
+          exposure_us / grid_exposure_us * (1 + shade * (double(u) / s.width - 0.5));
       double level =
           lamp * (print[i] < 0 ? beyond_grey : paper_grey + (ink_grey - paper_grey) * print[i]);
       if ((Eigen::Vector2d(u, v) - glare.centre).norm() < glare.radius_px) level = 300;
@@ -195,15 +196,14 @@ std::vector<std::uint8_t> PlateImages::grid(const RigidTransform& T_camera_plate
 }
 
 std::vector<std::uint8_t> PlateImages::laser(const RigidTransform& T_camera_plate,
-                                             std::uint64_t seed) {
+                                             std::uint64_t seed, double exposure_us) {
   const TrueSensor& s = sensor();
   const std::vector<float> print = ink(T_camera_plate);
   std::vector<std::uint8_t> grey(print.size());
-  const Exposure exposure{laser_exposure_us, 0, true};
+  const Exposure exposure{exposure_us, 0, true};
   renderer_.render(scene_, T_camera_plate.inverse() * s.T_tool_camera.inverse(), exposure, seed,
                    grey.data(), renderer_.whole_image());
-  const double ambient =
-      settings_.ambient_grey * laser_exposure_us / settings_.reference_exposure_us;
+  const double ambient = settings_.ambient_grey * exposure_us / settings_.reference_exposure_us;
   for (std::size_t i = 0; i < grey.size(); ++i)
     if (print[i] > 0 && grey[i] > ambient)
       grey[i] = rounded(ambient + (grey[i] - ambient) * (1 + (ink_share - 1) * print[i]));

@@ -40,10 +40,15 @@ class PlateImages {
   // Whether all dots, with a margin, and a stripe across the plate are in the image.
   bool shows_all(const RigidTransform& T_camera_plate) const;
 
+  // What an exposure should be: paper light, but not white; the stripe likewise. us
+  static constexpr double grid_exposure_us = 20000, laser_exposure_us = 1000;
+
   // width * height grey values, row by row. The same arguments give the same bytes.
   std::vector<std::uint8_t> grid(const RigidTransform& T_camera_plate, std::uint64_t seed,
-                                 const Glare& glare = {}) const;
-  std::vector<std::uint8_t> laser(const RigidTransform& T_camera_plate, std::uint64_t seed);
+                                 const Glare& glare = {},
+                                 double exposure_us = grid_exposure_us) const;
+  std::vector<std::uint8_t> laser(const RigidTransform& T_camera_plate, std::uint64_t seed,
+                                  double exposure_us = laser_exposure_us);
 
  private:
   // Share of ink, 0 to 1, over each pixel; below 0 beside the plate.

@@ -11,7 +11,8 @@ namespace {
 enum Purpose : std::uint64_t {
   kTriggerPhase = 1,
   kFrameNoise,
-  kPositionNoise
+  kPositionNoise,
+  kRobotError
 };  // of random streams
 
 SceneKind kind_of(const std::string& name) {
@@ -69,7 +70,7 @@ SimulatedCell::SimulatedCell(const CellSimulatorSettings& settings, std::int64_t
                settings.search_delay_s}),
       arm_(tool_of(settings)),
       controller_(controller_settings(settings, now),
-                  [this](std::int64_t utime) { return motion_.pose(utime); }),
+                  [this](std::int64_t utime) { return reported_pose(utime); }),
       renderer_(settings.sensor),
       camera_(
           camera_settings(settings, now),
@@ -119,8 +120,48 @@ void SimulatedCell::put(SceneKind kind, std::uint64_t seed) {
     kind_ = kind;
     seed_ = seed;
     scene_ = std::move(scene);
+    plate_.reset();
   }
   camera_.scene_changed();
+}
+
+void SimulatedCell::put_plate(std::uint64_t seed) {
+  auto plate = std::make_shared<PlateView>(settings_.sensor, settings_.scene, seed);
+  {
+    const std::lock_guard lock(scene_mutex_);
+    seed_ = seed;
+    plate_ = std::move(plate);
+  }
+  camera_.scene_changed();
+}
+
+bool SimulatedCell::go_to_plate_pose(std::int64_t now, int number) {
+  const auto pose = plate_->pose(number, [this](const auto& T) { return reaches(T); });
+  if (!pose) return false;
+  RandomStream random(mixed(seed_, kRobotError, static_cast<std::uint64_t>(number)));
+  const auto normal = [&] {
+    return Eigen::Vector3d(random.normal(), random.normal(), random.normal());
+  };
+  RigidTransform error = RigidTransform::Identity();
+  error.translation() = settings_.robot_error_mm * normal();
+  const Eigen::Vector3d turn = settings_.robot_error_deg * EIGEN_PI / 180 * normal();
+  if (turn.norm() > 0)
+    error.linear() = Eigen::AngleAxisd(turn.norm(), turn.normalized()).toRotationMatrix();
+  {
+    const std::lock_guard lock(scene_mutex_);
+    robot_error_ = error;
+  }
+  motion_.go_to(now, *pose);
+  return true;
+}
+
+// What the controller believes, which its repeatability keeps from being true.
+RigidTransform SimulatedCell::reported_pose(std::int64_t utime) const {
+  RigidTransform pose = motion_.pose(utime);
+  const std::lock_guard lock(scene_mutex_);
+  pose.translation() += robot_error_.translation();
+  pose.linear() = robot_error_.linear() * pose.linear();
+  return pose;
 }
 
 bool SimulatedCell::reaches(const RigidTransform& T_base_tool) {
@@ -143,16 +184,21 @@ void SimulatedCell::tick(std::int64_t now) {
 // On the camera's threads.
 void SimulatedCell::render(const SimulatedFrame& frame, std::uint8_t* grey) {
   std::shared_ptr<const Scene> scene;
+  std::shared_ptr<PlateView> plate;
   std::uint64_t noise_seed;
   {
     const std::lock_guard lock(scene_mutex_);
     scene = scene_;
+    plate = plate_;
     noise_seed = mixed(seed_, kFrameNoise, static_cast<std::uint64_t>(kind_));
     const double period = static_cast<double>(camera_.frame_period());
     noise_seed = mixed(noise_seed, kFrameNoise,
                        static_cast<std::uint64_t>(std::llround(
                            static_cast<double>(frame.start - search_start_) / period)));
   }
+  if (plate)
+    return plate->render(motion_.pose(frame.middle()), motion_.moving(frame.middle()),
+                         frame.exposure, frame.region, grey);
   renderer_.render(*scene, motion_.pose(frame.middle()), frame.exposure, noise_seed, grey,
                    frame.region);
 }

@@ -10,6 +10,7 @@
 #include "services/cell_simulator/cell_simulator_settings.hpp"
 #include "services/cell_simulator/gige_camera.hpp"
 #include "services/cell_simulator/hspo_sender.hpp"
+#include "services/cell_simulator/plate_view.hpp"
 #include "services/cell_simulator/robot_controller.hpp"
 #include "services/cell_simulator/search_motion.hpp"
 
@@ -28,6 +29,11 @@ class SimulatedCell {
   void scan_ends(std::int64_t now);
 
   void put(SceneKind kind, std::uint64_t seed);  // throws SceneError and leaves the scene as it is
+  void put_plate(std::uint64_t seed);            // the calibration plate in place of all else
+  // To the n-th pose of those that a calibration wants; false where none can be reached. The robot
+  // errs there by another amount than before.
+  bool go_to_plate_pose(std::int64_t now, int number);
+  bool shows_plate() const { return plate_ != nullptr; }
   bool reaches(const RigidTransform& T_base_tool);
   void go_to(std::int64_t now, const RigidTransform& T_base_tool) {
     motion_.go_to(now, T_base_tool);
@@ -52,13 +58,16 @@ class SimulatedCell {
 
  private:
   void render(const SimulatedFrame& frame, std::uint8_t* grey);
+  RigidTransform reported_pose(std::int64_t utime) const;
 
   CellSimulatorSettings settings_;
-  std::mutex scene_mutex_;  // of what the camera's threads read: the four below
+  mutable std::mutex scene_mutex_;  // of what the devices' threads read: the six below
   SceneKind kind_;
   std::uint64_t seed_;
   std::shared_ptr<const Scene> scene_;
+  std::shared_ptr<PlateView> plate_;  // none where the scene is shown
   std::int64_t search_start_ = 0;
+  RigidTransform robot_error_ = RigidTransform::Identity();  // shift in base, turn about the tool
   std::string fault_;
 
   CellFaults faults_;

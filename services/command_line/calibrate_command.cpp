@@ -17,6 +17,7 @@
 #include "services/calibration/calibration_set.hpp"
 #include "services/calibration/calibration_settings.hpp"
 #include "services/calibration/view_images.hpp"
+#include "services/command_line/calibrate_live.hpp"
 #include "services/command_line/terminal.hpp"
 #include "services/extraction/image_file.hpp"
 
@@ -27,7 +28,9 @@ namespace fs = std::filesystem;
 
 struct Options {
   std::string folder, output, cell, channel;
-  bool without_laser = false;
+  bool without_laser = false, live = false, go_on = false;
+  int poses = 20;
+  std::int64_t seed = -1;
   CalibrationNames names;
 };
 
@@ -140,6 +143,16 @@ int run_command(const Options& options) {
 }
 
 int run_or_complain(const Options& options) try {
+  if (options.live != options.folder.empty()) {
+    say("give either a folder or --live");
+    return 2;
+  }
+  if (options.live)
+    return calibrate_live({options.cell,
+                           {options.names.sensor, options.names.robot, ""},
+                           options.poses,
+                           !options.go_on,
+                           options.seed});
   return run_command(options);
 } catch (const CalibrationSetError& error) {
   say(error.what());
@@ -161,10 +174,21 @@ void add_calibrate_command(CLI::App& parent, int& exit_code) {
                             .count();
   CLI::App* command = parent.add_subcommand(
       "calibrate", "Camera, laser plane and hand-eye from images of a plate and the robot's poses");
+  command->add_option("folder", options->folder,
+                      "Holds plate.yaml, poses.csv, grid/NNNN.png and laser/NNNN.png");
+  command->add_flag(
+      "--live", options->live,
+      "In a running cell instead: captures pose after pose and has arcstart-calibration "
+      "solve; a simulated cell drives the poses itself");
+  command->add_option("--poses", options->poses, "With --live: poses in a simulated cell")
+      ->check(CLI::Range(1, 1000))
+      ->capture_default_str();
   command
-      ->add_option("folder", options->folder,
-                   "Holds plate.yaml, poses.csv, grid/NNNN.png and laser/NNNN.png")
-      ->required();
+      ->add_option("--seed", options->seed,
+                   "With --live: seed of a simulated plate; -1: the one in force")
+      ->capture_default_str();
+  command->add_flag("--continue", options->go_on,
+                    "With --live: keep the poses that were captured before");
   command->add_option("-o,--output", options->output,
                       "File for the calibration; a report stands beside it, .html and .json "
                       "(default: FOLDER/calibration.yaml)");

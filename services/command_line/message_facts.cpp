@@ -11,9 +11,11 @@ namespace {
 
 // Longer endings first: LASER0_SCAN_COMMAND ends with no other, but names are looked up in this
 // order.
-constexpr std::array<std::pair<std::string_view, ChannelKind>, 11> kEndings = {{
+constexpr std::array<std::pair<std::string_view, ChannelKind>, 13> kEndings = {{
     {"_SCAN_COMMAND", ChannelKind::kScanCommand},
     {"_CAMERA_COMMAND", ChannelKind::kCameraCommand},
+    {"_CALIBRATION_COMMAND", ChannelKind::kCalibrationCommand},
+    {"_CALIBRATION_CAPTURE", ChannelKind::kCalibrationCapture},
     {"_CALIBRATION", ChannelKind::kCalibration},
     {"_PREVIEW", ChannelKind::kPreview},
     {"_PROFILE", ChannelKind::kProfile},
@@ -90,6 +92,10 @@ std::string message_error(ChannelKind kind, const std::vector<std::uint8_t>& byt
       return error_of<camera_command_t>(bytes);
     case ChannelKind::kCalibration:
       return error_of<calibration_t>(bytes);
+    case ChannelKind::kCalibrationCommand:
+      return error_of<calibration_command_t>(bytes);
+    case ChannelKind::kCalibrationCapture:
+      return error_of<calibration_capture_t>(bytes);
     case ChannelKind::kSeam:
       return error_of<seam_t>(bytes);
     case ChannelKind::kStatus:

@@ -21,6 +21,8 @@ enum class ChannelKind {
   kScanCommand,
   kCameraCommand,
   kCalibration,
+  kCalibrationCommand,
+  kCalibrationCapture,
   kSeam,
   kStatus,
   kCellCommand,

@@ -33,7 +33,9 @@ struct Cell {
     REQUIRE(mkdtemp(name.data()) != nullptr);
     folder = name;
     file = name + "/calibration.yaml";
-    app = std::make_unique<CalibrationApp>(*bus, CalibrationSettings{file, {}}, Instance{});
+    CalibrationSettings settings;
+    settings.file = file;
+    app = std::make_unique<CalibrationApp>(*bus, settings, Instance{}, 1);
     bus->subscribe_pattern(
         "LASER0_CALIBRATION", Queue::measurements(),
         [this](const auto& message, const std::string&) { bytes.push_back(message); });

@@ -79,6 +79,11 @@ TEST_CASE("hostile counts and string lengths never crash a decoder") {
   attack(scan_t{});
   attack(scan_command_t{});
   attack(camera_command_t{});
+  attack(calibration_command_t{});
+  calibration_capture_t capture{};
+  capture.pose_count = 2;
+  capture.poses.resize(2);
+  attack(capture);
   attack(service_status_t{});
   attack(cell_command_t{});
   attack(truth_t{});
@@ -107,11 +112,18 @@ TEST_CASE("types have the fingerprints that recordings rely on") {
         << '\n';
   };
 #define VALUE(type, name) " " #name "=" + std::to_string(static_cast<long>(type::name))
+  line(calibration_capture_t{}, VALUE(calibration_capture_t, IDLE) +
+                                    VALUE(calibration_capture_t, CAPTURING) +
+                                    VALUE(calibration_capture_t, SOLVING));
+  line(calibration_command_t{}, VALUE(calibration_command_t, CAPTURE) +
+                                    VALUE(calibration_command_t, DISCARD) +
+                                    VALUE(calibration_command_t, SOLVE));
+  line(calibration_pose_t{}, "");
   line(calibration_t{}, VALUE(calibration_t, PARAMETERS));
   line(camera_command_t{}, VALUE(camera_command_t, LASER_OFF) + VALUE(camera_command_t, LASER_ON) +
                                VALUE(camera_command_t, LASER_AS_CONFIGURED));
   line(cell_command_t{}, VALUE(cell_command_t, KEEP) + VALUE(cell_command_t, BACKGROUND) +
-                             VALUE(cell_command_t, WORKPIECE));
+                             VALUE(cell_command_t, WORKPIECE) + VALUE(cell_command_t, PLATE));
   line(image_t{}, VALUE(image_t, MONO8) + VALUE(image_t, PNG));
   line(profile_t{}, VALUE(profile_t, INSIDE) + VALUE(profile_t, SEGMENT_END));
   line(robot_pose_t{}, "");

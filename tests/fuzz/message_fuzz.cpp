@@ -33,10 +33,20 @@ void feed(const std::uint8_t* data, std::size_t size) {
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
   using namespace arcstart;
   if (size == 0) return 0;
-  constexpr void (*kFeeds[])(const std::uint8_t*, std::size_t) = {
-      feed<image_t>, feed<robot_pose_t>,     feed<stripe_t>,         feed<profile_t>,
-      feed<scan_t>,  feed<scan_command_t>,   feed<camera_command_t>, feed<calibration_t>,
-      feed<seam_t>,  feed<service_status_t>, feed<cell_command_t>,   feed<truth_t>};
+  constexpr void (*kFeeds[])(const std::uint8_t*, std::size_t) = {feed<image_t>,
+                                                                  feed<robot_pose_t>,
+                                                                  feed<stripe_t>,
+                                                                  feed<profile_t>,
+                                                                  feed<scan_t>,
+                                                                  feed<scan_command_t>,
+                                                                  feed<camera_command_t>,
+                                                                  feed<calibration_t>,
+                                                                  feed<calibration_command_t>,
+                                                                  feed<calibration_capture_t>,
+                                                                  feed<seam_t>,
+                                                                  feed<service_status_t>,
+                                                                  feed<cell_command_t>,
+                                                                  feed<truth_t>};
   kFeeds[data[0] % std::size(kFeeds)](data + 1, size - 1);
   return 0;
 }
