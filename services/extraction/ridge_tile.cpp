@@ -7,6 +7,8 @@
 #include <cstring>
 
 #include "services/extraction/instruction_sets.hpp"
+#include "services/extraction/lanes.hpp"
+#include "services/extraction/ridge_extrema.hpp"
 
 #if defined(__x86_64__) && defined(__GNUC__)
 #include <immintrin.h>
@@ -15,38 +17,8 @@
 namespace arcstart {
 namespace {
 
-template <int kFloats>
-struct Register {
-  typedef float Lanes __attribute__((vector_size(4 * kFloats)));
-  typedef std::int32_t Mask __attribute__((vector_size(4 * kFloats)));
-};
-template <int kFloats>
-using Lanes = typename Register<kFloats>::Lanes;
-
 constexpr int kRows = 4;          // output rows at once: each row in reach is loaded once for them
 constexpr int kRowsOfChunk = 32;  // output rows for which the filtered rows are kept
-
-template <int kFloats>
-ARCSTART_INLINE_BODY Lanes<kFloats> load(const float* from) {
-  Lanes<kFloats> lanes;
-  std::memcpy(&lanes, from, sizeof lanes);
-  return lanes;
-}
-template <class Vector>
-ARCSTART_INLINE_BODY void store(float* to, Vector lanes) {
-  std::memcpy(to, &lanes, sizeof lanes);
-}
-
-// Keeps a value in its register: used twice, it would be loaded twice.
-template <int kFloats, class Vector>
-ARCSTART_INLINE_BODY void keep([[maybe_unused]] Vector& lanes) {
-#if defined(__x86_64__) && defined(__GNUC__)
-  if constexpr (kFloats == 16)
-    asm("" : "+v"(lanes));  // any of 32 registers
-  else
-    asm("" : "+x"(lanes));
-#endif
-}
 
 int up_to(int size, int multiple) { return (size + multiple - 1) / multiple * multiple; }
 
@@ -177,53 +149,9 @@ ARCSTART_INLINE_BODY bool any_strong(const Lanes<kFloats> uu[kRows], const Lanes
   return (all & 0x80000000'80000000u) != 0;
 }
 
-// Of the pixels of four rows, a register wide: derivatives of the smoothed grey values, and what
-// they say.
-template <int kFloats>
-struct Extrema {
-  static constexpr int kCount = kRows * kFloats;
-  float u[kCount], v[kCount], uu[kCount], uv[kCount], vv[kCount];
-  float du[kCount], dv[kCount];  // from the pixel's centre to the extremum across the line; px
-  float nu[kCount], nv[kCount];  // across the line, unit
-  float curvature[kCount];
-  std::uint8_t is_ridge[kCount];
-};
-
-// The eigenvalue of largest absolute value must be the negative one; t is the extremum's distance
-// along its eigenvector n (Steger 1998, Eq. 22).
-template <int kFloats>
-ARCSTART_INLINE_BODY void find_extrema(float least_curvature, Extrema<kFloats>& e) {
-  std::int32_t is_ridge[Extrema<kFloats>::kCount];
-  for (int i = 0; i < Extrema<kFloats>::kCount; ++i) {
-    const float half_trace = 0.5f * (e.uu[i] + e.vv[i]),
-                half_difference = 0.5f * (e.uu[i] - e.vv[i]);
-    const float root = std::sqrt(half_difference * half_difference + e.uv[i] * e.uv[i]);
-    const float eigenvalue = half_trace - root;
-    // (uu - eigenvalue, uv) or (uv, vv - eigenvalue), crossed: the longer for its accuracy.
-    const bool down = half_difference <= 0;
-    const float longer = root + std::abs(half_difference);
-    float nu = down ? longer : -e.uv[i];
-    float nv = down ? -e.uv[i] : longer;
-    // Curved alike in all directions: any normal will do.
-    nv = longer > 0 ? nv : 1;
-    const float square = nu * nu + nv * nv, scale = 1 / std::sqrt(square);
-    const float t = -(e.u[i] * nu + e.v[i] * nv) / (eigenvalue * square);
-    const float du = t * nu, dv = t * nv;
-    is_ridge[i] = (half_trace <= 0) & (eigenvalue <= -least_curvature) & (std::abs(du) <= 0.5f) &
-                  (std::abs(dv) <= 0.5f);
-    e.du[i] = du;
-    e.dv[i] = dv;
-    e.nu[i] = nu * scale;
-    e.nv[i] = nv * scale;
-    e.curvature[i] = -eigenvalue;
-  }
-  for (int i = 0; i < Extrema<kFloats>::kCount; ++i)
-    e.is_ridge[i] = static_cast<std::uint8_t>(is_ridge[i]);
-}
-
 // rows: of the four, that belong to the tile.
 template <int kFloats>
-void add_points(const RidgeTile& tile, const Extrema<kFloats>& extrema, int column, int row,
+void add_points(const RidgeTile& tile, const Extrema<kRows * kFloats>& extrema, int column, int row,
                 int rows, std::vector<RidgePoint>& points) {
   for (int begin = 0; begin < rows * kFloats; begin += 8) {
     static_assert(std::endian::native == std::endian::little && kRows * kFloats % 8 == 0);
@@ -243,7 +171,7 @@ void add_points(const RidgeTile& tile, const Extrema<kFloats>& extrema, int colu
 
 template <int kFloats>
 ARCSTART_INLINE_BODY void find_in_chunk(const RidgeTile& tile, const Planes& planes, int first_row,
-                                        int rows, Extrema<kFloats>& extrema,
+                                        int rows, Extrema<kRows * kFloats>& extrema,
                                         std::vector<RidgePoint>& points) {
   const int half_width = tile.half_width;
   for (int row = 0; row < rows; row += kRows)
@@ -272,7 +200,7 @@ ARCSTART_INLINE_BODY void find_ridge_points_in_body(const RidgeTile& tile,
                                                     std::vector<RidgePoint>& points) {
   const int half_width = tile.half_width;
   const Planes planes(half_width, tile.work);
-  Extrema<kFloats> extrema;
+  Extrema<kRows * kFloats> extrema;
   for (int done = 0; done < tile.rows; done += kRowsOfChunk) {
     const int rows = std::min(kRowsOfChunk, tile.rows - done);
     if (done > 0)  // the last rows of the chunk before are in reach of this one's
