@@ -9,7 +9,10 @@ namespace {
 
 // Half-widths of the windows in sigma, widest first. All but the last are parabolas.
 constexpr std::array<double, 4> kReach{15, 8, 4.5, 3};
-constexpr std::size_t kUsual = 1;      // whose median misfit is the usual one
+constexpr std::size_t kUsual = 1;  // whose median misfit is the usual one
+constexpr std::size_t kNarrow = 2;
+// Of noise alone: the median misfit of the usual windows to the lower quartile of the narrow ones'.
+constexpr double kNarrowToUsual = 3.3;
 constexpr double kMisfit = 1.7 * 1.7;  // times the usual one is still borne
 constexpr std::size_t kFewestPoints = 12;
 
@@ -174,7 +177,18 @@ void Course::fit_all(const std::vector<CoursePoint>& points, double sigma) {
   if (misfits_.empty()) return;
   const auto middle = misfits_.begin() + static_cast<std::ptrdiff_t>(misfits_.size() / 2);
   std::nth_element(misfits_.begin(), middle, misfits_.end());
-  const double most = kMisfit * *middle;
+  double usual = *middle;
+  // Where most of the stripe is rough, the roughness is no measure of the noise: what the smoother
+  // places leave of narrower windows is.
+  misfits_.clear();
+  Window narrow;
+  for (std::size_t i = 0; i < points.size(); i += 4)
+    if (const Fit fit = fit_parabola(points, i, kReach[kNarrow] * sigma, narrow); fit.valid)
+      misfits_.push_back(fit.misfit);
+  const auto quartile = misfits_.begin() + static_cast<std::ptrdiff_t>(misfits_.size() / 4);
+  std::nth_element(misfits_.begin(), quartile, misfits_.end());
+  if (quartile != misfits_.end()) usual = std::min(usual, kNarrowToUsual * *quartile);
+  const double most = kMisfit * usual;
 
   // Errors of neighbours hang together over what the kernels span, exp(-d^2 / 4 sigma^2): so many
   // points count for one.
