@@ -9,6 +9,9 @@ namespace {
 
 constexpr double kNearSeam = 3, kBeside = 25;  // from the seam in a plate; mm
 constexpr double kStandsBefore = 3;            // mm
+constexpr double kFlush = 0.3;                 // share of joints whose plates end together
+constexpr double kFlushWithin = 0.6;           // mm
+constexpr double kOffsets = 40;                // the others end so far about each other; mm
 constexpr double kSameEdge = 2.5;              // standard deviations of their difference
 // A stripe shows a plate at the seam also where it leaves it a little before; mm along the seam.
 constexpr double kMargin = 0.5;
@@ -40,21 +43,21 @@ Bracket bracket_of(const Stations& stations, int plate, double end, double outwa
   return bracket;
 }
 
-// Of two plates the one that ends the seam first; the second is known by a bracket only.
+// Of two plates the one that ends the seam first, where the second is known by a bracket only. Two
+// plates are often set flush; else the one ends anywhere about the other's end.
 void limit_by_bracket(SeamEnd& end, const Bracket& bracket, double outward) {
   const double inner = outward * bracket.inner, outer = outward * bracket.outer;
   const double edge = outward * end.along;
-  if (edge <= inner) return;
-  const double low = inner, high = std::min(edge, outer), width = outer - inner;
-  if (!(width > 0)) return;
-  // It ends evenly likely anywhere in the bracket: before the edge, then it counts; else the edge.
-  const double share = std::clamp((high - low) / width, 0.0, 1.0);
-  const double mean = share * (low + high) / 2 + (1 - share) * edge;
-  const double within = (high - low) * (high - low) / 12;
-  const double variance = share * (within + std::pow((low + high) / 2 - mean, 2)) +
-                          (1 - share) * (end.variance + std::pow(edge - mean, 2));
+  if (edge <= inner || !(outer > inner)) return;
+  const double high = std::min(edge, outer), per_mm = (1 - kFlush) / kOffsets;
+  const double flush = edge <= outer ? kFlush : 0;
+  const double share = per_mm * (high - inner) / (per_mm * (outer - inner) + flush);
+  const double middle = (inner + high) / 2;
+  const double mean = share * middle + (1 - share) * edge;
+  const double within = (high - inner) * (high - inner) / 12;
+  end.variance = share * (within + std::pow(middle - mean, 2)) +
+                 (1 - share) * (end.variance + std::pow(edge - mean, 2));
   end.along = outward * mean;
-  end.variance = variance;
 }
 
 // Of the stripe right beyond the seam's end that no longer shows a plate: whether the plate is seen
@@ -107,8 +110,9 @@ SeamEnd find_end(const ScanCloud& cloud, const std::array<Plate, 2>& plates, con
   }
 
   std::array<std::optional<PlateEdge>, 2> edges;
+  std::array<EdgeSearch, 2> searches;
   for (int j = 0; j < 2; ++j) {
-    EdgeSearch edge_search;
+    EdgeSearch& edge_search = searches[j];
     const double margin = kMargin + kMostSlant * stations.near[j];
     const double inner = brackets[j].inner - outward * margin;
     const double outer = brackets[j].outer + outward * std::max(margin, width);
@@ -117,6 +121,14 @@ SeamEnd find_end(const ScanCloud& cloud, const std::array<Plate, 2>& plates, con
     edge_search.tolerance = search.tolerance;
     edge_search.shortening_px = search.shortening_px;
     edges[j] = find_edge(cloud, plates[j], plates[1 - j], line, side, edge_search);
+  }
+  // Of single stripes, the one that agrees with the other plate's edge.
+  for (int j = 0; j < 2; ++j) {
+    if (!edges[0] || !edges[1] || edges[j]->stripes > 1 || edges[1 - j]->stripes < 2) continue;
+    searches[j].from = edges[1 - j]->along - kFlushWithin;
+    searches[j].to = edges[1 - j]->along + kFlushWithin;
+    if (const auto flush = find_edge(cloud, plates[j], plates[1 - j], line, side, searches[j]))
+      edges[j] = flush;
   }
   if (!edges[0] && !edges[1]) {
     end.visibility =
