@@ -1,0 +1,91 @@
+#include "services/seam_finding/edges.hpp"
+
+#include <catch2/catch.hpp>
+#include <cmath>
+#include <random>
+
+using namespace arcstart;
+
+namespace {
+
+// A plate in z = 0 from x = begin to 100 and y = 0 to 40, its seam along the x axis; stripes every
+// 3.6 mm cross it at a slant, thinned out to every fifteenth of their centres a tenth of a
+// millimetre apart, and end a pixel's fraction before its edges.
+struct Made {
+  ScanCloud cloud;
+  Plate plate, other;
+  Line line{{0, 0, 0}, {1, 0, 0}};
+};
+
+Made make(double begin, double slant, bool something_before, unsigned seed) {
+  std::mt19937 engine(seed);
+  std::normal_distribution<double> noise(0, 0.02);
+  std::uniform_real_distribution<double> phase(0, 0.1);
+  Made made;
+  made.plate.plane = {Eigen::Vector3d::UnitZ(), 0};
+  made.other.plane = {Eigen::Vector3d::UnitY(), 0};
+  for (double x = -20; x < 120; x += 3.6) {
+    const int stripe = static_cast<int>(made.cloud.stripes.size());
+    std::vector<Eigen::Vector3d> centres;  // outward from the seam
+    for (double y = phase(engine); y < 40; y += 0.1)
+      if (const double along = x - slant * y; along > begin && along < 100)
+        centres.emplace_back(along + noise(engine), y, noise(engine));
+    const auto add = [&](const Eigen::Vector3d& point, int segment, bool end) {
+      made.cloud.points.push_back(point);
+      made.cloud.origins.push_back({stripe, segment, end, 0, 0.1f * std::hypot(1.0f, 0.3f)});
+    };
+    for (std::size_t i = 0; i < centres.size(); ++i)
+      if (i % 15 == 0 || i + 1 == centres.size()) {
+        made.plate.points.push_back(made.cloud.size());
+        add(centres[i], 0, i == 0 || i + 1 == centres.size());
+      }
+    if (something_before && !centres.empty())
+      add(centres.back() + Eigen::Vector3d(-1, 1, 9), 1, true);
+    end_stripe(made.cloud, ScanStripe::Seen::kSeen, {x, 100, 200}, {x, 0, 0});
+  }
+  return made;
+}
+
+}  // namespace
+
+TEST_CASE("the edge of a plate is found to a fraction of the stripes' distance") {
+  for (const double slant : {0.3, -0.3, 0.2}) {
+    int within = 0;
+    for (unsigned seed = 1; seed <= 20; ++seed) {
+      const double begin = 0.17 * seed;
+      const Made made = make(begin, slant, false, seed);
+      const auto edge = find_edge(made.cloud, made.plate, made.other, made.line, SeamSide::kBegin,
+                                  {begin - 3, begin + 3, 0.5, 0.5});
+      REQUIRE(edge);
+      CHECK(edge->along == Approx(begin).margin(0.15));
+      CHECK_FALSE(edge->occluded);
+      within += std::pow(edge->along - begin, 2) <= 4 * edge->variance;
+      const auto end = find_edge(made.cloud, made.plate, made.other, made.line, SeamSide::kEnd,
+                                 {97, 103, 0.5, 0.5});
+      REQUIRE(end);
+      CHECK(end->along == Approx(100).margin(0.15));
+    }
+    CHECK(within >= 18);
+  }
+}
+
+TEST_CASE("stripes square to the seam cross no edge; what lies before a plate hides its edge") {
+  CHECK_FALSE(find_edge(make(0, 0, false, 1).cloud, make(0, 0, false, 1).plate,
+                        make(0, 0, false, 1).other, {{0, 0, 0}, {1, 0, 0}}, SeamSide::kBegin,
+                        {-3, 3, 0.5, 0.5}));
+  const Made hidden = make(2, 0.3, true, 3);
+  const auto edge = find_edge(hidden.cloud, hidden.plate, hidden.other, hidden.line,
+                              SeamSide::kBegin, {-1, 5, 0.5, 0.5});
+  REQUIRE(edge);
+  CHECK(edge->occluded);
+}
+
+TEST_CASE("there is no edge where none is expected, nor in a cloud without stripes") {
+  const Made made = make(2, 0.3, false, 5);
+  CHECK_FALSE(find_edge(made.cloud, made.plate, made.other, made.line, SeamSide::kBegin,
+                        {40, 46, 0.5, 0.5}));
+  ScanCloud loose = made.cloud;
+  loose.stripes.clear();
+  CHECK_FALSE(
+      find_edge(loose, made.plate, made.other, made.line, SeamSide::kBegin, {-1, 5, 0.5, 0.5}));
+}
