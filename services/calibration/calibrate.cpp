@@ -8,6 +8,7 @@
 #include <stdexcept>
 
 #include "services/calibration/calibration_result.hpp"
+#include "services/calibration/length_scale.hpp"
 #include "services/calibration/outlying_views.hpp"
 #include "services/calibration/plate_turns.hpp"
 
@@ -145,6 +146,9 @@ std::string adjust_all(const Plate& plate, CalibrationRun& run) {
     const HandEyeMethod& first = best_method(run.methods);
     if (!std::isfinite(first.consistency_mm))
       return "no closed form of the hand-eye works: add poses tilted to other sides";
+    run.scale = length_scale(tool_poses(run.views), run.camera.T_camera_plate,
+                             first.T_tool_camera.linear());
+    if (is_gross(run.scale)) return length_slip(run.scale, plate);
     Deviations deviations;
     deviations.pixel = std::max(0.02, run.camera.rms / std::numbers::sqrt2);
     if (run.has_laser) deviations.laser_mm = std::max(0.01, run.laser_apart.rms_mm);
@@ -170,6 +174,8 @@ std::string adjust_all(const Plate& plate, CalibrationRun& run) {
 
 void judge(const Plate& plate, const CalibrateOptions& options, CalibrationRun& run) {
   warn_of_method_spread(run);
+  if (const std::string slip = length_slip(run.scale, plate); !slip.empty())
+    run.warnings.push_back(slip);
   if (!run.adjustment.converged)
     run.warnings.push_back("the adjustment did not settle: its deviations are not to be relied on");
   if (run.camera_held)
@@ -198,6 +204,14 @@ void judge(const Plate& plate, const CalibrateOptions& options, CalibrationRun& 
     say(view);
     return plain_without(plate, run.views, run.camera.model, view);
   });
+  const auto figure = [&](const LeaveOneOut& of) {
+    return run.has_laser ? of.laser_rms_mm : of.target_rms_mm;
+  };
+  if (figure(run.plain_left_one_out) < 0.95 * figure(run.left_one_out))
+    run.warnings.push_back(fmt::format(
+        "Park and plain fits tell poses that they never saw better than the adjustment, {:.3f} "
+        "against {:.3f} mm: something is wrong that is not by chance, from pose to pose",
+        figure(run.plain_left_one_out), figure(run.left_one_out)));
 }
 
 }  // namespace

@@ -11,6 +11,7 @@
 #include "services/calibration/hand_eye.hpp"
 #include "services/calibration/laser_stage.hpp"
 #include "services/calibration/leave_one_out.hpp"
+#include "services/calibration/length_scale.hpp"
 #include "services/calibration/plate_flatness.hpp"
 #include "services/calibration/pose_spread.hpp"
 
@@ -35,6 +36,7 @@ struct CalibrationRun {
   int crossings = 0;                   // of stripe and grid lines
   double crossing_rms_mm = 0;          // between where they put the stripe and where rays do
   std::vector<HandEyeMethod> methods;  // closed forms, on the same views
+  LengthScale scale;                   // of the plate against the robot
   Adjustment adjustment;
   double hand_eye_residual_mm = 0;  // RMS of the plate's points, as the robot's word carries
                                     // them to base, from where the set puts them

@@ -87,6 +87,7 @@ json to_json(const CalibrationRun& run, const std::vector<std::string>& missed) 
   result["hand_eye_residual"] = run.hand_eye_residual_mm;
   result["robot_deviation_mm"] = adjustment.deviations.robot_mm;
   result["robot_deviation_rad"] = adjustment.deviations.robot_rad;
+  result["plate_scale"] = {{"factor", run.scale.factor}, {"deviation", run.scale.deviation}};
   result["plate_bend_mm"] = run.flatness.bend_mm;
   result["leave_one_out"] = judged(run.left_one_out);
   result["leave_one_out_park"] = judged(run.plain_left_one_out);

@@ -245,6 +245,11 @@ int main(int argc, char** argv) {
   poor_range.least_tilt_deg = 0;
   poor_range.most_tilt_deg = 25;
   poor_range.roll_deg = 12;
+  if (!folder.empty()) {
+    PlateImages images(settings, well);
+    write_folder(folder, images, well, draw_poses(images, well, {}, 20, 1), 0.1, 0.01, 1);
+    return 0;
+  }
   nlohmann::json json;
   fmt::print(
       "rendered images, {} x {}: noise, speckle, print under the stripe; detection and "

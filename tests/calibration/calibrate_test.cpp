@@ -212,3 +212,22 @@ TEST_CASE("what the set never saw lies where it predicts") {
   CHECK(run.left_one_out.laser_rms_mm < 1.1 * run.plain_left_one_out.laser_rms_mm);
   CHECK(run.field.size() > 20);
 }
+
+TEST_CASE("a plate of another size than it is said to have is told from the robot's moves") {
+  const SimulatedSet& set = well_spread_set();
+  const auto views = set.said(0.1, 0.01);
+  Plate plate = set.plate();
+  const auto scaled = [&](double factor) {
+    plate.pitch_mm = factor * set.printed.pitch_mm;
+    plate.radius_mm = factor * set.printed.dot_radius_mm;
+    CalibrateOptions options;
+    options.leave_one_out = false;
+    return calibrate(plate, views, 800, 600, options);
+  };
+  CHECK(scaled(1).warnings.empty());
+  const CalibrationRun printed_larger = scaled(1 / 1.02);
+  CHECK(printed_larger.scale.factor == Approx(1.02).epsilon(1e-3));
+  REQUIRE(!printed_larger.warnings.empty());
+  CHECK_THAT(printed_larger.warnings[0], Contains("pitch_mm of 12 "));
+  CHECK_THAT(scaled(0.1).refused, Contains("pitch_mm of 12 ") && Contains("a unit slips"));
+}
