@@ -9,7 +9,7 @@
 #include <nlohmann/json.hpp>
 
 #include "services/calibration/calibrate.hpp"
-#include "services/calibration/view_images.hpp"
+#include "tests/bench/calibration_mistakes.hpp"
 #include "tests/bench/simulated_plate.hpp"
 
 using namespace arcstart;
@@ -32,17 +32,6 @@ struct Sums {
   double predicted_e2e = 0, shift = 0, predicted_shift = 0;
   double worst_e2e = 0;
 };
-
-double end_to_end(const SensorModel& model, const RigidTransform& T_tool_camera,
-                  const std::vector<ProbePoint>& probes) {
-  double sum = 0;
-  for (const ProbePoint& probe : probes) {
-    const auto point = camera_point(model, probe.pixel.x(), probe.pixel.y());
-    if (!point) return 1e9;
-    sum += (T_tool_camera * *point - probe.tool).squaredNorm();
-  }
-  return std::sqrt(sum / static_cast<double>(probes.size()));
-}
 
 // calibrateCamera with the circles taken as points, Park, a plane through the stripes' points.
 double opencv_end_to_end(Plate plate, std::vector<View> views, const TrueSensor& sensor,
@@ -127,73 +116,6 @@ void run_seed(const Plate& plate, const std::vector<View>& true_views, const Tru
       row, seed, e2e, predicted, opencv, plane, shift, predicted_shift,
       run.adjustment.deviations.robot_mm, run.adjustment.deviations.pixel, run.left_out.size());
   std::fflush(stdout);
-}
-
-// The three mistakes that a set must bear, each in one of its poses. What comes, over what the same
-// poses without a mistake give: RMS over the seeds.
-struct Mistake {
-  const char* name;
-  double squares = 0, clean = 0;
-  int named = 0, seeds = 0, others = 0;
-};
-
-// One image taken anew.
-View rendered_view(PlateImages& images, const PrintedPlate& printed, const View& view,
-                   const RigidTransform& T_camera_plate, std::uint64_t seed, const Glare& glare) {
-  auto grid = images.grid(T_camera_plate, seed, glare);
-  auto laser = images.laser(T_camera_plate, seed);
-  const int width = images.sensor().width, height = images.sensor().height;
-  return look_at_pose({view.index, "", "", view.T_base_tool}, plate_of(printed),
-                      cv::Mat(height, width, CV_8U, grid.data()),
-                      cv::Mat(height, width, CV_8U, laser.data()));
-}
-
-void run_mistakes(PlateImages& images, const PrintedPlate& printed,
-                  const std::vector<RigidTransform>& poses, const std::vector<View>& true_views,
-                  std::uint64_t seed, std::vector<Mistake>& mistakes) {
-  std::vector<View> views = true_views;
-  for (View& view : views)
-    view.T_base_tool = said_pose(view.T_base_tool, 0.1, 0.01, seed, view.index);
-  const auto probes = probe_points(images.sensor());
-  const std::size_t wrong = seed % views.size(), other = (wrong + 7) % views.size();
-  const auto solve = [&](const std::vector<View>& with) {
-    CalibrateOptions options;
-    options.leave_one_out = false;
-    return calibrate(plate_of(printed), with, images.sensor().width, images.sensor().height,
-                     options);
-  };
-  const auto error = [&](const CalibrationRun& run) {
-    return end_to_end(run.adjustment.state.model, run.adjustment.state.T_tool_camera, probes);
-  };
-  const double clean = error(solve(views));
-  for (Mistake& mistake : mistakes) {
-    std::vector<View> with = views;
-    const std::string name = mistake.name;
-    if (name == "mislabelled") {
-      with[wrong].T_base_tool = views[other].T_base_tool;
-    } else if (name == "glared") {
-      const Eigen::Vector2d beside = views[wrong].target[22] + Eigen::Vector2d(28, 18);
-      with[wrong] = rendered_view(images, printed, views[wrong], poses[wrong], seed, {beside, 45});
-    } else {
-      // The plate lifted and put down the other way round, on the same place.
-      RigidTransform turn = RigidTransform::Identity();
-      turn.linear() = Eigen::AngleAxisd(EIGEN_PI, Eigen::Vector3d::UnitZ()).toRotationMatrix();
-      turn.translation() = dots(printed).front() + dots(printed).back();
-      with[wrong] = rendered_view(images, printed, views[wrong], poses[wrong] * turn, seed, {});
-    }
-    const CalibrationRun run = solve(with);
-    const int index = views[wrong].index;
-    const bool named = std::any_of(run.left_out.begin(), run.left_out.end(),
-                                   [&](const LeftOutView& view) { return view.index == index; });
-    const double found = run.refused.empty() ? error(run) : 1e9;
-    mistake.named += named;
-    mistake.others += static_cast<int>(run.left_out.size()) - named;
-    mistake.squares += found * found;
-    mistake.clean += clean * clean;
-    ++mistake.seeds;
-    fmt::print("{:<16} {:>4} {:>9.4f} {:>9.4f} without it; {}\n", name, seed, found, clean,
-               named ? "named" : "NOT NAMED");
-  }
 }
 
 void report(const std::string& row, const Sums& sums, nlohmann::json& json) {
@@ -289,18 +211,7 @@ int main(int argc, char** argv) {
     json[row + ".e2e_sd_ratio"] = more[row + ".e2e_sd_ratio"];
     json[row + ".sd_ratio_n"] = all.seeds;
   }
-  for (const Mistake& mistake : mistakes) {
-    const double over = std::sqrt(mistake.squares / std::max(1e-12, mistake.clean));
-    fmt::print(
-        "{:<16} {} seeds: named in {}, {} other views left out, error {:.3f} times the clean "
-        "set's\n",
-        mistake.name, mistake.seeds, mistake.named, mistake.others, over);
-    const std::string row = mistake.name;
-    json[row + ".n"] = mistake.seeds;
-    json[row + ".named"] = mistake.named;
-    json[row + ".others_left_out"] = mistake.others;
-    json[row + ".e2e_over_clean"] = over;
-  }
+  report(mistakes, json);
   if (!json_path.empty() && !(std::ofstream(json_path) << json.dump(2) << '\n')) {
     fmt::print(stderr, "bench_calibration: {} cannot be written\n", json_path);
     return 1;

@@ -139,4 +139,15 @@ std::vector<ProbePoint> probe_points(const TrueSensor& sensor) {
   return points;
 }
 
+double end_to_end(const SensorModel& model, const RigidTransform& T_tool_camera,
+                  const std::vector<ProbePoint>& probes) {
+  double sum = 0;
+  for (const ProbePoint& probe : probes) {
+    const auto point = camera_point(model, probe.pixel.x(), probe.pixel.y());
+    if (!point) return 1e9;
+    sum += (T_tool_camera * *point - probe.tool).squaredNorm();
+  }
+  return std::sqrt(sum / static_cast<double>(probes.size()));
+}
+
 }  // namespace arcstart::test

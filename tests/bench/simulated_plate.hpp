@@ -5,6 +5,7 @@
 #include <string>
 #include <vector>
 
+#include "common/sensor_model.hpp"
 #include "services/calibration/plate.hpp"
 #include "services/calibration/view.hpp"
 #include "services/cell_simulator/plate_images.hpp"
@@ -51,5 +52,9 @@ struct ProbePoint {
   Eigen::Vector3d camera, tool;
 };
 std::vector<ProbePoint> probe_points(const TrueSensor& sensor);
+
+// RMS over the probe points, pixel to tool, of a set; mm.
+double end_to_end(const SensorModel& model, const RigidTransform& T_tool_camera,
+                  const std::vector<ProbePoint>& probes);
 
 }  // namespace arcstart::test

@@ -2,8 +2,6 @@
 // x 600 pixels.
 #pragma once
 
-#include <cmath>
-
 #include "services/calibration/calibrate.hpp"
 #include "tests/bench/simulated_plate.hpp"
 
@@ -36,15 +34,8 @@ struct SimulatedSet {
 
   // RMS over the laser points at 270 to 330 mm, pixel to tool; mm.
   double end_to_end(const CalibrationRun& run) const {
-    double sum = 0;
-    const auto probes = probe_points(images.sensor());
-    for (const ProbePoint& probe : probes)
-      sum +=
-          (run.adjustment.state.T_tool_camera *
-               camera_point(run.adjustment.state.model, probe.pixel.x(), probe.pixel.y()).value() -
-           probe.tool)
-              .squaredNorm();
-    return std::sqrt(sum / static_cast<double>(probes.size()));
+    return test::end_to_end(run.adjustment.state.model, run.adjustment.state.T_tool_camera,
+                            probe_points(images.sensor()));
   }
 
   PrintedPlate printed;
