@@ -5,6 +5,7 @@
 #include <fstream>
 #include <random>
 
+#include "common/calibration_message.hpp"
 #include "tests/calibration/sample_file.hpp"
 
 using namespace arcstart;
@@ -207,6 +208,16 @@ TEST_CASE("what is written is read again, covariance and all") {
   CHECK(again.sensor_model.distortion == calibration.sensor_model.distortion);
   CHECK(again.T_tool_camera.isApprox(calibration.T_tool_camera, 1e-15));
   CHECK(again.id != calibration.id);
+
+  // As the bus carries it.
+  const calibration_t message = to_message(again);
+  std::vector<std::uint8_t> bytes(static_cast<std::size_t>(message.getEncodedSize()));
+  message.encode(bytes.data(), 0, message.getEncodedSize());
+  calibration_t received{};
+  REQUIRE(received.decode(bytes.data(), 0, message.getEncodedSize()) > 0);
+  CHECK(received.covariance_size == n);
+  CHECK(received.covariance[2][5] == calibration.covariance[2 * n + 5]);
+  CHECK(calibration_from_message(received).covariance == calibration.covariance);
 
   calibration.covariance[1] = 1;
   CHECK_THROWS_WITH(parse_calibration(calibration_file_text(calibration), "new.yaml"),
