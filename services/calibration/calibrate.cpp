@@ -105,28 +105,8 @@ std::string find_laser_plane(const Plate& plate, CalibrationRun& run) {
   return "";
 }
 
-const HandEyeMethod& best_method(const std::vector<HandEyeMethod>& methods) {
-  const HandEyeMethod& park = methods[1];
-  if (std::isfinite(park.consistency_mm)) return park;
-  return *std::min_element(methods.begin(), methods.end(), [](const auto& a, const auto& b) {
-    return a.consistency_mm < b.consistency_mm;
-  });
-}
-
-// Between the methods that worked: one that fits far worse than the best has failed by itself, as
-// some do where views turn by nearly 180 deg.
 void warn_of_method_spread(CalibrationRun& run) {
-  constexpr double kFailed = 3;
-  const double best =
-      std::min_element(run.methods.begin(), run.methods.end(), [](const auto& a, const auto& b) {
-        return a.consistency_mm < b.consistency_mm;
-      })->consistency_mm;
-  double largest = 0;
-  for (const HandEyeMethod& a : run.methods)
-    for (const HandEyeMethod& b : run.methods)
-      if (std::max(a.consistency_mm, b.consistency_mm) < kFailed * best)
-        largest = std::max(largest,
-                           (a.T_tool_camera.translation() - b.T_tool_camera.translation()).norm());
+  const double largest = spread_of_methods(run.methods);
   const double own =
       std::sqrt(run.adjustment.covariance.diagonal().tail<3>().sum());  // mm, predicted
   if (largest > std::max(1.0, 5 * own))
@@ -160,6 +140,14 @@ std::string adjust_all(const Plate& plate, CalibrationRun& run) {
         plate, run.views,
         {run.camera.model, first.T_tool_camera, first.T_base_plate, run.camera.T_camera_plate},
         deviations, {!run.camera_held, true});
+    if (const auto odd = odd_stripe(run.adjustment.laser_rms_mm)) {
+      run.warnings.push_back(fmt::format(
+          "pose {}: its stripe lies {:.2f} mm from the laser plane, RMS, and is left out: another "
+          "light, a reflection, or not on the plate",
+          run.views[*odd].index, run.adjustment.laser_rms_mm[*odd]));
+      run.views[*odd].stripe.clear();
+      continue;
+    }
     const auto odd = odd_pose(run.adjustment);
     if (!odd) return "";
     const RobotCorrection& correction = run.adjustment.robot[*odd];

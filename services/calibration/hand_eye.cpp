@@ -53,6 +53,12 @@ double angle(const RigidTransform& a, const RigidTransform& b) {
   return Eigen::AngleAxisd(a.linear().transpose() * b.linear()).angle();
 }
 
+const HandEyeMethod& most_consistent(const std::vector<HandEyeMethod>& methods) {
+  return *std::min_element(methods.begin(), methods.end(), [](const auto& a, const auto& b) {
+    return a.consistency_mm < b.consistency_mm;
+  });
+}
+
 }  // namespace
 
 std::vector<HandEyeMethod> closed_form_hand_eye(const std::vector<RigidTransform>& T_base_tool,
@@ -92,6 +98,24 @@ std::vector<HandEyeMethod> closed_form_hand_eye(const std::vector<RigidTransform
     results.push_back(result);
   }
   return results;
+}
+
+const HandEyeMethod& best_method(const std::vector<HandEyeMethod>& methods) {
+  const HandEyeMethod& park = methods[1];
+  if (std::isfinite(park.consistency_mm)) return park;
+  return most_consistent(methods);
+}
+
+double spread_of_methods(const std::vector<HandEyeMethod>& methods) {
+  constexpr double kFailed = 3;  // times the best's consistency
+  const double limit = kFailed * most_consistent(methods).consistency_mm;
+  double largest = 0;
+  for (const HandEyeMethod& a : methods)
+    for (const HandEyeMethod& b : methods)
+      if (std::max(a.consistency_mm, b.consistency_mm) < limit)
+        largest = std::max(largest,
+                           (a.T_tool_camera.translation() - b.T_tool_camera.translation()).norm());
+  return largest;
 }
 
 RigidTransform mean_plate(const std::vector<RigidTransform>& T_base_tool,

@@ -22,6 +22,13 @@ std::vector<HandEyeMethod> closed_form_hand_eye(const std::vector<RigidTransform
                                                 const std::vector<RigidTransform>& T_camera_plate,
                                                 const std::vector<Eigen::Vector3d>& points);
 
+// Park's where it works, else the most consistent.
+const HandEyeMethod& best_method(const std::vector<HandEyeMethod>& methods);
+
+// How far apart the methods place the camera, at most, of those that worked; mm. One that fits far
+// worse than the best has failed by itself, as some do where views turn by nearly 180 deg.
+double spread_of_methods(const std::vector<HandEyeMethod>& methods);
+
 // The plate's pose in base as the mean of what each view says.
 RigidTransform mean_plate(const std::vector<RigidTransform>& T_base_tool,
                           const RigidTransform& T_tool_camera,

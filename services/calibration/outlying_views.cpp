@@ -31,6 +31,10 @@ std::optional<std::size_t> odd_turn(const std::vector<double>& disagreement) {
   return odd_one(disagreement, 6, 1.5 * std::numbers::pi / 180);
 }
 
+std::optional<std::size_t> odd_stripe(const std::vector<double>& laser_rms_mm) {
+  return odd_one(laser_rms_mm, 5, 0.1);
+}
+
 std::optional<std::size_t> odd_pose(const Adjustment& adjustment) {
   constexpr std::size_t kFewest = 6;  // with less, who is right cannot be told
   constexpr double kOdd = 6;          // mean square of a correction over its expectation

@@ -231,3 +231,16 @@ TEST_CASE("a plate of another size than it is said to have is told from the robo
   CHECK_THAT(printed_larger.warnings[0], Contains("pitch_mm of 12 "));
   CHECK_THAT(scaled(0.1).refused, Contains("pitch_mm of 12 ") && Contains("a unit slips"));
 }
+
+TEST_CASE("another light taken for the stripe is named and does no harm") {
+  const SimulatedSet& set = well_spread_set();
+  std::vector<View> views = set.said(0.1, 0.01);
+  const double clean = set.end_to_end(calibrated(set, views));
+  for (Eigen::Vector2d& centre : views[9].stripe) centre.y() += 40;
+  const CalibrationRun run = calibrated(set, views);
+  REQUIRE(run.refused.empty());
+  REQUIRE(run.warnings.size() == 1);
+  CHECK_THAT(run.warnings[0], Contains("pose 10: its stripe"));
+  CHECK(run.left_out.empty());
+  CHECK(set.end_to_end(run) < 1.1 * clean + 0.002);
+}
