@@ -77,7 +77,7 @@ struct Polynomial {
 
 }  // namespace
 
-void Course::add_up(const std::vector<CoursePoint>& points) {
+void BranchCourse::add_up(const std::vector<CoursePoint>& points) {
   // About the branch's middle, so that differences of sums keep their digits.
   origin_along_ = 0.5 * (points.front().along + points.back().along);
   origin_across_ = 0.5 * (points.front().across + points.back().across);
@@ -98,8 +98,8 @@ void Course::add_up(const std::vector<CoursePoint>& points) {
   }
 }
 
-Course::Fit Course::fit_parabola(const std::vector<CoursePoint>& points, std::size_t at,
-                                 double reach, Window& window) const {
+BranchCourse::Fit BranchCourse::fit_parabola(const std::vector<CoursePoint>& points, std::size_t at,
+                                             double reach, Window& window) const {
   const double here = points[at].along;
   while (points[window.begin].along < here - reach) ++window.begin;
   while (window.end < points.size() && points[window.end].along < here + reach) ++window.end;
@@ -132,8 +132,8 @@ Course::Fit Course::fit_parabola(const std::vector<CoursePoint>& points, std::si
           std::max(0.0, squares) / (count - 3) / variance, true};
 }
 
-Course::Fit Course::fit_quartic(const std::vector<CoursePoint>& points, std::size_t at,
-                                double reach) const {
+BranchCourse::Fit BranchCourse::fit_quartic(const std::vector<CoursePoint>& points, std::size_t at,
+                                            double reach) const {
   Polynomial<5> quartic;
   std::array<double, 9> x{};
   std::size_t begin = at, end = at;
@@ -156,7 +156,7 @@ Course::Fit Course::fit_quartic(const std::vector<CoursePoint>& points, std::siz
   return {origin_across_ + quartic.value, std::sqrt(quartic.variance), 0, true};
 }
 
-void Course::smooth(std::vector<CoursePoint>& points, double sigma) {
+void BranchCourse::smooth(std::vector<CoursePoint>& points, double sigma) {
   smoothed_ = points;
   for (CoursePoint& point : smoothed_)
     if (point.at_border) point.deviation = 0;
@@ -164,7 +164,7 @@ void Course::smooth(std::vector<CoursePoint>& points, double sigma) {
   std::swap(points, smoothed_);
 }
 
-void Course::fit_all(const std::vector<CoursePoint>& points, double sigma) {
+void BranchCourse::fit_all(const std::vector<CoursePoint>& points, double sigma) {
   sigma_ = sigma;
   add_up(points);
   misfits_.clear();

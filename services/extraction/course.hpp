@@ -21,7 +21,7 @@ struct CoursePoint {
 // the points do not bear: the residuals, in units of the points' deviations, are no more than
 // usual in the branch. The widest ones take the grain of speckle out, the narrowest follows a
 // corner. Nothing is put where no point is.
-class Course {
+class BranchCourse {
  public:
   // points by their place along. Replaces across and deviation; deviation 0: the point lies at the
   // border, and where it truly is the others do not tell. A short branch's others are left alone.

@@ -74,7 +74,7 @@ class StripeExtractor {
   std::vector<Chain> chains_;
   std::vector<float> widths_;  // of each point; px, 0 where not measured
   Selection selection_;
-  Course course_;
+  BranchCourse course_;
   std::vector<CoursePoint> course_points_;  // of a branch
 };
 

@@ -23,7 +23,7 @@ struct Spread {
   double variance() const { return std::max(0.0, squares / n - mean() * mean()); }
 };
 
-Eigen::Matrix3d covariance_at(const std::array<Plate, 2>& plates, const Line& line,
+Eigen::Matrix3d covariance_at(const std::array<JointPlate, 2>& plates, const Line& line,
                               const std::array<PlaneAccuracy, 2>& accuracies, const SeamEnd& end) {
   // A point moves by e0 out of the one plane, e1 out of the other, and s along the line.
   Eigen::Matrix3d rows;
@@ -37,8 +37,9 @@ Eigen::Matrix3d covariance_at(const std::array<Plate, 2>& plates, const Line& li
 
 }  // namespace
 
-PlaneAccuracy plane_accuracy(const ScanCloud& cloud, const Plate& plate, const Plate& other,
-                             const Line& line, double distance_mm, double spacing_mm) {
+PlaneAccuracy plane_accuracy(const ScanCloud& cloud, const JointPlate& plate,
+                             const JointPlate& other, const Line& line, double distance_mm,
+                             double spacing_mm) {
   const Eigen::Vector3d away = away_from_seam(plate, other);
   Spread all;
   for (const int i : plate.points)
@@ -78,7 +79,7 @@ PlaneAccuracy plane_accuracy(const ScanCloud& cloud, const Plate& plate, const P
   return accuracy;
 }
 
-std::optional<SeamAccuracy> seam_accuracy(const std::array<Plate, 2>& plates, const Line& line,
+std::optional<SeamAccuracy> seam_accuracy(const std::array<JointPlate, 2>& plates, const Line& line,
                                           const std::array<PlaneAccuracy, 2>& accuracies,
                                           const SeamEnd& start, const SeamEnd& end) {
   if (!accuracies[0].determined || !accuracies[1].determined) return std::nullopt;

@@ -20,8 +20,9 @@ struct PlaneAccuracy {
 };
 
 // From the points no farther than `distance` mm from the line. spacing: between stripes; mm.
-PlaneAccuracy plane_accuracy(const ScanCloud& cloud, const Plate& plate, const Plate& other,
-                             const Line& line, double distance_mm, double spacing_mm);
+PlaneAccuracy plane_accuracy(const ScanCloud& cloud, const JointPlate& plate,
+                             const JointPlate& other, const Line& line, double distance_mm,
+                             double spacing_mm);
 
 struct SeamAccuracy {
   Eigen::Matrix3d start, end;  // covariances in base, random part; mm2
@@ -31,7 +32,7 @@ struct SeamAccuracy {
 };
 
 // Nothing where a plate is seen in too few places.
-std::optional<SeamAccuracy> seam_accuracy(const std::array<Plate, 2>& plates, const Line& line,
+std::optional<SeamAccuracy> seam_accuracy(const std::array<JointPlate, 2>& plates, const Line& line,
                                           const std::array<PlaneAccuracy, 2>& accuracies,
                                           const SeamEnd& start, const SeamEnd& end);
 

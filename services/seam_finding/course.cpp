@@ -83,8 +83,8 @@ double end_beyond(const std::vector<Station>& stations, int from, int step, int&
 
 }  // namespace
 
-Course find_course(const ScanCloud& cloud, const std::array<Plate, 2>& plates, const Line& line,
-                   const CourseSearch& search) {
+Course find_course(const ScanCloud& cloud, const std::array<JointPlate, 2>& plates,
+                   const Line& line, const CourseSearch& search) {
   Course course;
   const Stations stations = stations_along(cloud, plates, line, search);
   const auto found = stretches(stations, search.spacing);
@@ -98,10 +98,10 @@ Course find_course(const ScanCloud& cloud, const std::array<Plate, 2>& plates, c
   return course;
 }
 
-double centroid_of_first(const ScanCloud& cloud, const std::array<Plate, 2>& plates,
+double centroid_of_first(const ScanCloud& cloud, const std::array<JointPlate, 2>& plates,
                          const Line& line, const Course& course, int count) {
   std::vector<double> places;
-  for (const Plate& plate : plates)
+  for (const JointPlate& plate : plates)
     for (const int i : plate.points) {
       const double t = line.along(cloud.points[i]);
       if (t >= course.begin && t <= course.end && line.distance(cloud.points[i]) <= plate.contact)

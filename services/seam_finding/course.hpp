@@ -22,12 +22,12 @@ struct Course {
 // The longest stretch of the line on which both plates have points, with what follows behind short
 // interruptions. Its ends lie half-way between the last stripe that shows both plates and the next
 // one that does not. stripes is 0 where there is none.
-Course find_course(const ScanCloud& cloud, const std::array<Plate, 2>& plates, const Line& line,
-                   const CourseSearch& search);
+Course find_course(const ScanCloud& cloud, const std::array<JointPlate, 2>& plates,
+                   const Line& line, const CourseSearch& search);
 
 // The paper's way: where along the line the centroid of the first `count` points of both plates
 // lies, from the course's begin on; mm.
-double centroid_of_first(const ScanCloud& cloud, const std::array<Plate, 2>& plates,
+double centroid_of_first(const ScanCloud& cloud, const std::array<JointPlate, 2>& plates,
                          const Line& line, const Course& course, int count);
 
 }  // namespace arcstart

@@ -35,7 +35,7 @@ struct Place {
 };
 
 // A stripe's points on the plate, on its open side, in the stripe's order.
-std::vector<std::vector<int>> points_by_stripe(const ScanCloud& cloud, const Plate& plate,
+std::vector<std::vector<int>> points_by_stripe(const ScanCloud& cloud, const JointPlate& plate,
                                                const Line& line, const Eigen::Vector3d& away,
                                                double tolerance) {
   std::vector<std::vector<int>> stripes(cloud.stripes.size());
@@ -68,9 +68,9 @@ double thinned_step(const ScanCloud& cloud, const std::vector<int>& run) {
 
 // Where the stripe turns over the plate's edge into the cut: the line through its next two points
 // meets the plate there.
-std::optional<Eigen::Vector3d> corner_beyond(const ScanCloud& cloud, const Plate& plate, int last,
-                                             bool at_back, const Eigen::Vector3d& direction,
-                                             double step) {
+std::optional<Eigen::Vector3d> corner_beyond(const ScanCloud& cloud, const JointPlate& plate,
+                                             int last, bool at_back,
+                                             const Eigen::Vector3d& direction, double step) {
   const int one = at_back ? last + 1 : last - 1, two = at_back ? last + 2 : last - 2;
   const auto joined = [&](int i) {
     return i >= 0 && i < cloud.size() && cloud.origins[i].stripe == cloud.origins[last].stripe &&
@@ -89,7 +89,7 @@ std::optional<Eigen::Vector3d> corner_beyond(const ScanCloud& cloud, const Plate
 }
 
 std::optional<Place> place_of(const ScanCloud& cloud, const std::vector<int>& run,
-                              const Plate& plate, const Plate& other, const Line& line,
+                              const JointPlate& plate, const JointPlate& other, const Line& line,
                               SeamSide side, const EdgeSearch& search) {
   if (run.size() < 3) return std::nullopt;
   const bool rising = line.along(cloud.points[run.back()]) > line.along(cloud.points[run.front()]);
@@ -184,8 +184,9 @@ double far_edge(const ScanCloud& cloud, const std::vector<std::vector<int>>& run
 
 }  // namespace
 
-std::optional<PlateEdge> find_edge(const ScanCloud& cloud, const Plate& plate, const Plate& other,
-                                   const Line& line, SeamSide side, const EdgeSearch& search) {
+std::optional<PlateEdge> find_edge(const ScanCloud& cloud, const JointPlate& plate,
+                                   const JointPlate& other, const Line& line, SeamSide side,
+                                   const EdgeSearch& search) {
   if (!cloud.organised()) return std::nullopt;
   const Eigen::Vector3d away = away_from_seam(plate, other);
   std::vector<Place> places;

@@ -26,7 +26,8 @@ struct PlateEdge {
 // each at another distance from the seam, and each known to a pixel however few of its inner points
 // are kept. The edge is the line through these places; a plate is cut square unless they say
 // otherwise. Nothing where no stripe leaves the plate there, and in a cloud without stripes.
-std::optional<PlateEdge> find_edge(const ScanCloud& cloud, const Plate& plate, const Plate& other,
-                                   const Line& line, SeamSide side, const EdgeSearch& search);
+std::optional<PlateEdge> find_edge(const ScanCloud& cloud, const JointPlate& plate,
+                                   const JointPlate& other, const Line& line, SeamSide side,
+                                   const EdgeSearch& search);
 
 }  // namespace arcstart

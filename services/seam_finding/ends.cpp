@@ -63,7 +63,7 @@ void limit_by_bracket(SeamEnd& end, const Bracket& bracket, double outward) {
 // Of the stripe right beyond the seam's end that no longer shows a plate: whether the plate is seen
 // to have ended.
 EndVisibility seen_beyond(const ScanCloud& cloud, const Stations& stations,
-                          const std::array<Plate, 2>& plates, const Line& line, double end,
+                          const std::array<JointPlate, 2>& plates, const Line& line, double end,
                           double outward, double tolerance) {
   const Station* next = nullptr;
   for (const Station& station : stations.list)
@@ -92,7 +92,7 @@ EndVisibility seen_beyond(const ScanCloud& cloud, const Stations& stations,
 
 }  // namespace
 
-SeamEnd find_end(const ScanCloud& cloud, const std::array<Plate, 2>& plates, const Line& line,
+SeamEnd find_end(const ScanCloud& cloud, const std::array<JointPlate, 2>& plates, const Line& line,
                  const Course& course, const Stations& stations, SeamSide side,
                  const EndSearch& search) {
   const bool begin = side == SeamSide::kBegin;

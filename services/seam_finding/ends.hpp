@@ -23,7 +23,7 @@ struct EndSearch {
 // The seam begins where both plates have begun: at the later of their edges; where the two agree
 // within their deviations, at their mean by variance. A plate whose edge no stripe crosses begins
 // somewhere between the last stripe that does not show it at the seam and the first that does.
-SeamEnd find_end(const ScanCloud& cloud, const std::array<Plate, 2>& plates, const Line& line,
+SeamEnd find_end(const ScanCloud& cloud, const std::array<JointPlate, 2>& plates, const Line& line,
                  const Course& course, const Stations& stations, SeamSide side,
                  const EndSearch& search);
 

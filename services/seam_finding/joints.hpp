@@ -23,7 +23,7 @@ struct JointSearch {
 
 struct Joint {
   std::array<int, 2> faces{};  // indices
-  std::array<Plate, 2> plates;
+  std::array<JointPlate, 2> plates;
   Line line;             // along the search direction
   double angle = 0;      // between the open sides; rad
   double concavity = 0;  // share of each plate's points beside the line that lie before the other

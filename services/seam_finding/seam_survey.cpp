@@ -23,9 +23,9 @@ struct Seen {
 
 }  // namespace
 
-std::vector<SurveyPlace> survey_seam(const ScanCloud& cloud, const std::array<Plate, 2>& plates,
-                                     const Line& line, double begin, double end,
-                                     double spacing_mm) {
+std::vector<SurveyPlace> survey_seam(const ScanCloud& cloud,
+                                     const std::array<JointPlate, 2>& plates, const Line& line,
+                                     double begin, double end, double spacing_mm) {
   std::map<int, Seen> by_stripe;
   const auto key = [&](int i, double along) {
     return cloud.organised() ? cloud.origins[i].stripe

@@ -18,8 +18,9 @@ struct SurveyPlace {
 // A place for every stripe that crosses the seam between begin and end, in their order; without
 // stripes for every `spacing` of it. Where the residual was not measured the position is the
 // line's.
-std::vector<SurveyPlace> survey_seam(const ScanCloud& cloud, const std::array<Plate, 2>& plates,
-                                     const Line& line, double begin, double end, double spacing_mm);
+std::vector<SurveyPlace> survey_seam(const ScanCloud& cloud,
+                                     const std::array<JointPlate, 2>& plates, const Line& line,
+                                     double begin, double end, double spacing_mm);
 
 // The line from begin to end where no place is farther from it than `straight_mm`; else through the
 // places, averaged over three so that no single one bends it.

@@ -24,8 +24,8 @@ struct Sight {
   double nearest = kInfinity;           // of them
 };
 
-std::vector<Sight> sights_of(const ScanCloud& cloud, const Plate& plate, const Plate& other,
-                             const Line& line, double tolerance) {
+std::vector<Sight> sights_of(const ScanCloud& cloud, const JointPlate& plate,
+                             const JointPlate& other, const Line& line, double tolerance) {
   const Eigen::Vector3d away = away_from_seam(plate, other);
   std::vector<Sight> sights(cloud.stripes.size());
   for (const int i : plate.points) {
@@ -70,7 +70,7 @@ double near_limit(std::vector<Sight>& sights, double tolerance, double contact) 
 using Places = std::vector<std::optional<double>>;
 
 Places seen_crossings(const std::array<std::vector<Sight>, 2>& sights,
-                      const std::array<Plate, 2>& plates) {
+                      const std::array<JointPlate, 2>& plates) {
   Places places(sights[0].size());
   const std::array<double, 2> slants = {slant_of(sights[0]), slant_of(sights[1])};
   for (std::size_t k = 0; k < places.size(); ++k) {
@@ -125,7 +125,7 @@ void mark_unknown(const ScanCloud& cloud, std::vector<Station>& stations) {
   }
 }
 
-Stations stripe_stations(const ScanCloud& cloud, const std::array<Plate, 2>& plates,
+Stations stripe_stations(const ScanCloud& cloud, const std::array<JointPlate, 2>& plates,
                          const Line& line, const CourseSearch& search) {
   std::array<std::vector<Sight>, 2> sights = {
       sights_of(cloud, plates[0], plates[1], line, search.tolerance),
@@ -148,7 +148,7 @@ Stations stripe_stations(const ScanCloud& cloud, const std::array<Plate, 2>& pla
 }
 
 // A plate goes on where its points near the line leave no wide gap.
-Stations piece_stations(const ScanCloud& cloud, const std::array<Plate, 2>& plates,
+Stations piece_stations(const ScanCloud& cloud, const std::array<JointPlate, 2>& plates,
                         const Line& line, const CourseSearch& search) {
   std::array<std::vector<double>, 2> places;
   double low = kInfinity, high = -kInfinity;
@@ -179,7 +179,7 @@ Stations piece_stations(const ScanCloud& cloud, const std::array<Plate, 2>& plat
 
 }  // namespace
 
-Eigen::Vector3d away_from_seam(const Plate& plate, const Plate& other) {
+Eigen::Vector3d away_from_seam(const JointPlate& plate, const JointPlate& other) {
   const Eigen::Vector3d& n = plate.plane.normal;
   return (other.plane.normal - other.plane.normal.dot(n) * n).normalized();
 }
@@ -203,7 +203,7 @@ std::vector<int> without_scraps(const ScanCloud& cloud, const std::vector<int>& 
   return kept;
 }
 
-Stations stations_along(const ScanCloud& cloud, const std::array<Plate, 2>& plates,
+Stations stations_along(const ScanCloud& cloud, const std::array<JointPlate, 2>& plates,
                         const Line& line, const CourseSearch& search) {
   return cloud.organised() ? stripe_stations(cloud, plates, line, search)
                            : piece_stations(cloud, plates, line, search);

@@ -10,7 +10,7 @@
 namespace arcstart {
 
 // A plate's part in a joint.
-struct Plate {
+struct JointPlate {
   Plane plane;              // normal out of the metal, toward the sensor
   double contact = 6;       // a point so near the seam's line stands for the plate there; mm
   std::vector<int> points;  // indices into the cloud, rising
@@ -27,7 +27,7 @@ struct CourseSearch {
 };
 
 // In a plate, away from the seam: toward the side that the other plate faces. Unit.
-Eigen::Vector3d away_from_seam(const Plate& plate, const Plate& other);
+Eigen::Vector3d away_from_seam(const JointPlate& plate, const JointPlate& other);
 
 // A stripe that crosses the line, or without stripes a piece of the line.
 struct Station {
@@ -54,7 +54,7 @@ struct Stations {
 // the slant at which stripes cross the plates; where it shows no plate, it is carried there by the
 // tool's way from the nearest stripe that does. A cloud without stripes has one for every `spacing`
 // of the line.
-Stations stations_along(const ScanCloud& cloud, const std::array<Plate, 2>& plates,
+Stations stations_along(const ScanCloud& cloud, const std::array<JointPlate, 2>& plates,
                         const Line& line, const CourseSearch& search);
 
 }  // namespace arcstart

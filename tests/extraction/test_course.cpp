@@ -57,7 +57,7 @@ TEST_CASE("a straight course comes out straight, less noisy, and its deviation s
       }
       points[x].across = line(x) + 0.3 * sum / std::sqrt(power);
     }
-    Course().smooth(points, kSigma);
+    BranchCourse().smooth(points, kSigma);
     for (int i = 40; i < 260; ++i) {
       squares += std::pow(points[i].across - line(points[i].along), 2);
       told += points[i].deviation * points[i].deviation;
@@ -78,7 +78,7 @@ TEST_CASE("what the kernels cut off a rounded corner is put back") {
   };
   const auto found = crest(corner, 300, 0.01);
   auto points = found;
-  Course().smooth(points, kSigma);
+  BranchCourse().smooth(points, kSigma);
   // A graph's crest moves by the curvature's 1 / (1 + slope^2): exact only at the apex and for
   // small slopes, so that steep flanks keep part of it.
   CHECK(rms_from(points, corner, 140, 160) < 0.35 * rms_from(found, corner, 140, 160));
@@ -92,14 +92,14 @@ TEST_CASE("points at the border are replaced by what the others say, or given up
     points[i].at_border = true;
     points[i].across += 2;  // bent by the mirrored image
   }
-  Course().smooth(points, kSigma);
+  BranchCourse().smooth(points, kSigma);
   for (int i = 0; i < 8; ++i) {
     CHECK(points[i].across == Approx(line(i)).margin(0.15));
     CHECK(points[i].deviation > 0);
   }
   std::vector<CoursePoint> few(points.begin(), points.begin() + 9);
   for (CoursePoint& p : few) p.deviation = 0.1;
-  Course().smooth(few, kSigma);
+  BranchCourse().smooth(few, kSigma);
   CHECK(few.front().deviation == 0);
   CHECK(few.back().deviation == 0.1);
 }

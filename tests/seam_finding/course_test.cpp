@@ -20,7 +20,7 @@ struct Bench {
   double phase = 0;
 
   ScanCloud cloud;
-  std::array<Plate, 2> plates;
+  std::array<JointPlate, 2> plates;
   Line line{{0, 0, 0}, {1, 0, 0}};
 
   Course run() {
@@ -179,7 +179,7 @@ TEST_CASE("points that may be either plate's do not make the other one") {
   Bench bench;
   bench.from = {20, 20};
   bench.run();
-  std::array<Plate, 2> plates = bench.plates;
+  std::array<JointPlate, 2> plates = bench.plates;
   // The upright begins at 20, the base at 60; before it the upright's lowest points lie in its
   // plane.
   std::erase_if(plates[0].points, [&](int i) { return bench.cloud.points[i].x() < 60; });
@@ -192,7 +192,7 @@ TEST_CASE("points that may be either plate's do not make the other one") {
 
 TEST_CASE("without stripes the course is where both plates leave no wide gap") {
   ScanCloud cloud;
-  std::array<Plate, 2> plates;
+  std::array<JointPlate, 2> plates;
   plates[0].plane = {{0, 0, 1}, 0};
   plates[1].plane = {{0, 1, 0}, 0};
   const auto add = [&](int plate, double low, double high) {

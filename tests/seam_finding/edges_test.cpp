@@ -13,7 +13,7 @@ namespace {
 // millimetre apart, and end a pixel's fraction before its edges.
 struct Made {
   ScanCloud cloud;
-  Plate plate, other;
+  JointPlate plate, other;
   Line line{{0, 0, 0}, {1, 0, 0}};
 };
 

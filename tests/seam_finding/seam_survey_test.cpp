@@ -12,7 +12,7 @@ namespace {
 // of 3 mm lies in it from 40 to 52 mm where wanted.
 struct Made {
   ScanCloud cloud;
-  std::array<Plate, 2> plates;
+  std::array<JointPlate, 2> plates;
   Line line{{0, 0, 0}, {1, 0, 0}};
 };
 Made make(const std::function<double(double)>& bend, bool bead) {
