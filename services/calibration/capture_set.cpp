@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <filesystem>
 #include <fstream>
+#include <map>
 #include <opencv2/imgcodecs.hpp>
 
 #include "services/calibration/calibration_report.hpp"
@@ -33,6 +34,21 @@ void write_image(const std::string& path, const cv::Mat& grey) {
   if (!written) throw CalibrationSetError(path + ": cannot be written: is the disk full?");
 }
 
+// Images of a pose that was never written down, for the service was killed in between, are put
+// aside.
+void set_aside_images_without_pose(const std::string& folder,
+                                   const std::map<int, RigidTransform>& poses) {
+  for (const char* kind : {"grid", "laser"})
+    for (const auto& entry : fs::directory_iterator(fs::path(folder) / kind)) {
+      const std::string stem = entry.path().stem().string();
+      const bool known = std::any_of(poses.begin(), poses.end(), [&](const auto& pose) {
+        return stem == fmt::format("{:04}", pose.first);
+      });
+      if (!known && entry.path().extension() == ".png")
+        fs::rename(entry.path(), entry.path().string() + ".without_pose");
+    }
+}
+
 }  // namespace
 
 CaptureSet::CaptureSet(const std::string& folder, const std::string& plate_file)
@@ -48,7 +64,11 @@ CaptureSet::CaptureSet(const std::string& folder, const std::string& plate_file)
   if (error)
     throw CalibrationSetError(folder + ": cannot be written: " + error.message() +
                               ": give another folder in calibration.folder");
-  if (!fs::exists(fs::path(folder) / "poses.csv")) return;
+  const std::string poses_file = folder + "/poses.csv";
+  const bool begun = fs::exists(poses_file);
+  set_aside_images_without_pose(
+      folder, begun ? read_poses_file(poses_file) : std::map<int, RigidTransform>{});
+  if (!begun) return;
   for (const CalibrationPose& pose : read_calibration_set(folder).poses)
     look(pose, cv::imread(pose.grid, cv::IMREAD_GRAYSCALE),
          cv::imread(pose.laser, cv::IMREAD_GRAYSCALE));

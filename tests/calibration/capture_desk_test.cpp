@@ -3,6 +3,7 @@
 #include <catch2/catch.hpp>
 #include <filesystem>
 #include <fstream>
+#include <opencv2/imgcodecs.hpp>
 #include <opencv2/imgproc.hpp>
 #include <thread>
 
@@ -194,8 +195,12 @@ TEST_CASE("poses are located, discarded and found again after a restart") {
   CHECK(cell.state.poses[2].distance == Approx(320).epsilon(0.05));
   CHECK_FALSE(cell.state.advice.empty());
 
+  // Killed before the pose was written down.
+  cv::imwrite(cell.folder / "set" / "grid" / "0004.png", cell.grid);
   cell.start();
   REQUIRE(cell.state.pose_count == 3);
+  CHECK(fs::exists(cell.folder / "set" / "grid" / "0004.png.without_pose"));
+  fs::remove(cell.folder / "set" / "grid" / "0004.png.without_pose");
   CHECK(cell.state.poses[2].usable);
   cell.order(calibration_command_t::DISCARD, 2);
   CHECK(cell.state.refusal.empty());
