@@ -30,6 +30,13 @@ struct Folder {
   ~Folder() { fs::remove_all(path); }
 };
 
+// On a busy machine a test's second may last ten: no chain is dead for that.
+SeamFindingSettings patient() {
+  SeamFindingSettings settings;
+  settings.dead_chain_s = 600;
+  return settings;
+}
+
 // One life of the service on a bus in memory; what it says is kept with its bytes.
 struct Life {
   std::unique_ptr<Bus> bus = Bus::in_memory();
@@ -38,7 +45,7 @@ struct Life {
   std::vector<seam_t> seams;
   std::vector<Bus::Bytes> bytes;
 
-  explicit Life(const std::string& state_folder = "", SeamFindingSettings wanted = {})
+  explicit Life(const std::string& state_folder = "", SeamFindingSettings wanted = patient())
       : settings(wanted) {
     bus->subscribe<seam_t>("LASER0_SEAM", Queue::measurements(), [this](const seam_t& seam) {
       seams.push_back(seam);
