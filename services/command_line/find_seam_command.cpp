@@ -14,7 +14,8 @@
 #include "services/command_line/point_cloud_file.hpp"
 #include "services/command_line/seam_json.hpp"
 #include "services/seam_finding/agreed_seam.hpp"
-#include "services/seam_finding/scan_answer.hpp"
+#include "services/seam_finding/plane_background.hpp"
+#include "services/seam_finding/seam_message.hpp"
 
 namespace arcstart {
 namespace {

@@ -8,68 +8,18 @@
 #include "services/seam_finding/joints.hpp"
 #include "services/seam_finding/plane_fit.hpp"
 #include "services/seam_finding/refit.hpp"
+#include "services/seam_finding/scales.hpp"
 
 namespace arcstart {
 namespace {
 
 constexpr double kDegree = M_PI / 180;
-constexpr double kLeastTolerance = 0.6;  // mm
-constexpr double kLeastNoise = 0.01;     // mm
-constexpr double kMostTolerance = 6;     // mm
-constexpr double kNoiseTolerance = 4;    // tolerance over noise
-constexpr double kPlaneHeights = 5;      // of PlaneBackground, in tolerances
-constexpr double kPitches = 1.3;         // contact over the points' distance along a stripe
-constexpr double kShortestSeam = 10;     // mm: less of it seen on both plates is no seam
-constexpr double kStationSpacings = 3;   // between stations of a cloud without stripes
-constexpr double kStraight = 0.5;        // mm
+constexpr double kShortestSeam = 10;    // mm: less of it seen on both plates is no seam
+constexpr double kStationSpacings = 3;  // between stations of a cloud without stripes
+constexpr double kStraight = 0.5;       // mm
 constexpr int kAlternatives = 6;
 constexpr int kMissingInARow = 3;    // stripes before the start
 constexpr double kContinues = 0.25;  // share of a face's points that lie in its plane as background
-
-// Median distance between neighbours along a stripe, as down-sampling left them; 0 where there are
-// none.
-double pitch_along_stripes(const ScanCloud& cloud) {
-  std::vector<double> distances;
-  for (int i = 1; i < cloud.size(); ++i)
-    if (cloud.origins[i].stripe >= 0 && cloud.origins[i].stripe == cloud.origins[i - 1].stripe &&
-        cloud.origins[i].segment == cloud.origins[i - 1].segment)
-      distances.push_back((cloud.points[i] - cloud.points[i - 1]).norm());
-  if (distances.empty()) return 0;
-  const auto middle = distances.begin() + static_cast<std::ptrdiff_t>(distances.size() / 2);
-  std::nth_element(distances.begin(), middle, distances.end());
-  return *middle;
-}
-
-struct Scales {
-  double tolerance, connection, contact, spacing, noise;
-};
-
-// What counts as near, from what the cloud itself shows.
-Scales scales_of(const ScanCloud& cloud, const Sampling& sampling, double tolerance_mm) {
-  Scales scales;
-  scales.spacing = sampling.spacing;
-  scales.noise = std::max(kLeastNoise, sampling.noise);
-  scales.tolerance = tolerance_mm > 0 ? tolerance_mm
-                                      : std::clamp(kNoiseTolerance * sampling.noise,
-                                                   kLeastTolerance, kMostTolerance);
-  const double pitch = pitch_along_stripes(cloud);
-  scales.connection = std::max(
-      4.0, cloud.organised() ? 2 * std::max(sampling.spacing, pitch) : 4 * sampling.spacing);
-  // A stripe that crosses the seam has a point within one pitch of it on either plate.
-  scales.contact = std::max(
-      {6.0, 3 * scales.tolerance, cloud.organised() ? kPitches * pitch : 4 * sampling.spacing});
-  return scales;
-}
-
-PlaneSearch plane_search(const Scales& scales, const SeamFindingSettings& settings) {
-  PlaneSearch search;
-  search.tolerance = scales.tolerance;
-  search.connection = scales.connection;
-  search.least_points = settings.plane_points_min;
-  search.most_faces = settings.planes_max;
-  search.locality = std::max(40.0, 6 * scales.connection);
-  return search;
-}
 
 CourseSearch course_search(const Scales& scales) {
   CourseSearch search;
@@ -307,31 +257,6 @@ SeamResult find_seam(const ScanCloud& scan, const Background& background,
   }
   answer(result, scan, best, scales, settings);
   return result;
-}
-
-std::optional<Plane> dominant_plane(const ScanCloud& cloud, std::uint64_t seed) {
-  const Scales scales = scales_of(cloud, measure_sampling(cloud), 0);
-  PlaneSearch search = plane_search(scales, {});
-  search.most_faces = 1;
-  std::vector<int> all(cloud.points.size());
-  for (int i = 0; i < cloud.size(); ++i) all[i] = i;
-  const auto faces = find_faces(cloud, all, search, seed);
-  if (faces.empty()) return std::nullopt;
-  const Plane plane = faces.front().plane;
-  int above = 0, below = 0;
-  for (const auto& point : cloud.points) {
-    above += plane.signed_distance(point) > kPlaneHeights * scales.tolerance;
-    below += plane.signed_distance(point) < -kPlaneHeights * scales.tolerance;
-  }
-  return above >= below ? plane : plane.flipped();
-}
-
-PlaneBackground::PlaneBackground(const ScanCloud& cloud, const Plane& plane)
-    : plane_(plane),
-      height_(kPlaneHeights * scales_of(cloud, measure_sampling(cloud), 0).tolerance) {}
-
-bool PlaneBackground::contains(const Eigen::Vector3d& point) const {
-  return plane_.signed_distance(point) <= height_;
 }
 
 }  // namespace arcstart

@@ -56,10 +56,4 @@ seam_t answer_workpiece(const CollectedScan& scan, const StoredBackground* backg
 // The receipt for a background scan; error: why it cannot serve, empty where it is stored.
 seam_t answer_background(const CollectedScan& scan, const std::string& error);
 
-// A message in which all that is not determined says so.
-seam_t empty_seam();
-
-// Verdict, seam, alternatives and the numbers of points.
-void fill_in(seam_t& seam, const SeamResult& result);
-
 }  // namespace arcstart

@@ -1,6 +1,7 @@
 #include <fmt/format.h>
 
 #include "services/seam_finding/scan_answer.hpp"
+#include "services/seam_finding/seam_message.hpp"
 #include "tests/bench/seam_row.hpp"
 #include "tests/bench/seam_scenes.hpp"
 #include "tests/seam_finding/synthetic_scan.hpp"

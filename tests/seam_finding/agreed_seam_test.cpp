@@ -4,6 +4,7 @@
 #include <cmath>
 #include <random>
 
+#include "services/seam_finding/plane_background.hpp"
 #include "tests/seam_finding/synthetic_scan.hpp"
 
 using namespace arcstart;
