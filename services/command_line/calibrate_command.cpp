@@ -3,13 +3,13 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <chrono>
 #include <filesystem>
 #include <fstream>
 #include <iostream>
 #include <memory>
 #include <stdexcept>
 
+#include "common/time.hpp"
 #include "services/calibration/calibration_file.hpp"
 #include "services/calibration/calibration_json.hpp"
 #include "services/calibration/calibration_report.hpp"
@@ -169,9 +169,7 @@ int run_or_complain(const Options& options) try {
 
 void add_calibrate_command(CLI::App& parent, int& exit_code) {
   auto options = std::make_shared<Options>();
-  options->names.made = std::chrono::duration_cast<std::chrono::microseconds>(
-                            std::chrono::system_clock::now().time_since_epoch())
-                            .count();
+  options->names.made = utime_now();
   CLI::App* command = parent.add_subcommand(
       "calibrate", "Camera, laser plane and hand-eye from images of a plate and the robot's poses");
   command->add_option("folder", options->folder,

@@ -12,7 +12,7 @@ namespace arcstart {
 namespace {
 
 constexpr std::size_t kMostFramesWaiting = 30;
-constexpr std::size_t kMostBytesKept = 256u << 20;  // of pixels
+constexpr std::size_t kMostBytesKept = 256u << 20;        // of pixels
 constexpr std::int64_t kFirstDeviceTime = 1'000'000'000;  // ns
 
 std::vector<std::filesystem::path> images_in(const std::string& folder) {

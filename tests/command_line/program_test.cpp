@@ -44,7 +44,8 @@ TEST_CASE("arcstart and each subcommand tell all of themselves") {
   const Folder folder;
   const Outcome all = run(folder, "--help");
   CHECK(all.code == 0);
-  for (const std::string command : {"scan", "replay", "extract", "find-seam", "calibrate", "monitor"}) {
+  for (const std::string command :
+       {"scan", "replay", "extract", "find-seam", "calibrate", "monitor"}) {
     CHECK_THAT(all.out, Contains(command));
     const Outcome help = run(folder, command + " --help");
     CHECK(help.code == 0);
