@@ -1,6 +1,4 @@
 // The whole pipeline on recordings made here in closed form: the Tee's seam is known without it.
-#include "services/command_line/replay.hpp"
-
 #include <algorithm>
 #include <catch2/catch.hpp>
 #include <cstdlib>
@@ -9,31 +7,14 @@
 #include <map>
 #include <random>
 
-#include "common/configuration.hpp"
 #include "common/geometry.hpp"
-#include "tests/command_line/synthetic_recording.hpp"
+#include "tests/command_line/replay_checks.hpp"
 
 using namespace arcstart;
 using namespace arcstart::test;
 using Catch::Matchers::Contains;
 
 namespace {
-
-using Bytes = std::vector<std::uint8_t>;
-
-Events of_stage(Stage stage) {
-  Recorded recorded;
-  recorded.images = stage == Stage::kImages;
-  recorded.stripes = stage == Stage::kStripes;
-  recorded.profiles = stage == Stage::kProfiles;
-  return record(recorded);
-}
-
-std::vector<Bytes> bytes_of(const ReplayResult& result) {
-  std::vector<Bytes> all;
-  for (const auto& seam : result.seams) all.push_back(seam.bytes);
-  return all;
-}
 
 struct SeamError {
   double lateral_mm, along_mm, direction_deg;
@@ -66,21 +47,6 @@ void check_found(const ReplayResult& result, double lateral_mm, double direction
   CHECK(result.is_good());
   CHECK(result.unanswered.empty());
   CHECK(result.undecodable == 0);
-}
-
-std::string refusal(const std::vector<std::string>& paths, const ReplayOptions& options = {}) {
-  std::string what;
-  try {
-    replay_recordings(paths, options);
-  } catch (const RecordingError& error) {
-    what = error.what();
-  } catch (const EventLogError& error) {
-    what = error.what();
-  } catch (const ConfigurationError& error) {
-    what = error.what();
-  }
-  CHECK(what.find('\n') == std::string::npos);
-  return what;
 }
 
 }  // namespace
@@ -174,60 +140,6 @@ TEST_CASE("the parts of a recording give together what it gives") {
     paths.push_back(folder.save("part" + std::string(1, static_cast<char>('0' + i)), parts[i]));
   do CHECK((bytes_of(replay_recordings(paths)) == expected));
   while (std::next_permutation(paths.begin(), paths.end()));
-}
-
-TEST_CASE("a recording cut off anywhere is replayed as far as it goes") {
-  const Folder folder;
-  const auto path = folder.save("a.lcm", of_stage(Stage::kProfiles));
-  const auto expected = bytes_of(replay_recordings({path}));
-  const auto size = std::filesystem::file_size(path);
-  const auto cut_to = [&](std::uintmax_t left) {
-    std::filesystem::copy_file(path, folder / "cut.lcm",
-                               std::filesystem::copy_options::overwrite_existing);
-    std::filesystem::resize_file(folder / "cut.lcm", left);
-  };
-
-  cut_to(size - 1);  // behind the last scan
-  const ReplayResult whole = replay_recordings({folder / "cut.lcm"});
-  CHECK((bytes_of(whole) == expected));
-  CHECK(whole.is_good());
-  REQUIRE(whole.warnings.size() == 1);
-  CHECK_THAT(whole.warnings[0], Contains("cut.lcm: damaged") && Contains("cut off"));
-
-  // In the second scan.
-  const EventLog log(path);
-  const auto& entries = log.entries();
-  const auto in_scan = std::find_if(entries.begin(), entries.end(), [](const auto& entry) {
-    return entry.timestamp > kWorkpieceScan + 1'500'000;
-  });
-  cut_to(in_scan->offset + 3);
-  const ReplayResult half = replay_recordings({folder / "cut.lcm"});
-  REQUIRE(half.seams.size() == 1);
-  CHECK(half.seams[0].bytes == expected[0]);
-  REQUIRE(half.unanswered.size() == 1);
-  CHECK(half.unanswered[0].scan_id == kWorkpieceScan);
-  CHECK_THAT(half.unanswered[0].why, Contains("the recording ends within it"));
-  CHECK_FALSE(half.is_good());
-
-  // In the first.
-  const auto in_first = std::find_if(entries.begin(), entries.end(), [](const auto& entry) {
-    return entry.timestamp > kBackgroundScan + 1'500'000;
-  });
-  cut_to(in_first->offset + 3);
-  CHECK_THAT(refusal({folder / "cut.lcm"}),
-             Contains("cut off") && Contains("no scan before it is whole"));
-
-  for (std::uintmax_t left = 1; left < size; left += size / 37) {
-    cut_to(left);
-    try {
-      const ReplayResult result = replay_recordings({folder / "cut.lcm"});
-      const auto bytes = bytes_of(result);
-      REQUIRE(bytes.size() <= expected.size());
-      CHECK(std::equal(bytes.begin(), bytes.end(), expected.begin()));
-    } catch (const RecordingError&) {
-    } catch (const EventLogError&) {
-    }
-  }
 }
 
 TEST_CASE("the calibration holds from the beginning, however late it was recorded first") {
@@ -330,22 +242,6 @@ TEST_CASE(
              Contains("lacks channel LASER0_SEAM_FINDING_STATUS") && Contains("--cell"));
 }
 
-TEST_CASE("messages damaged behind their first bytes are counted once and left out") {
-  const Folder folder;
-  Events events = of_stage(Stage::kProfiles);
-  int cut = 0;
-  for (auto& event : events)
-    if (event.channel == "LASER0_PROFILE" && event.timestamp > kWorkpieceScan + 1'000'000 &&
-        cut < 2) {
-      event.bytes.resize(event.bytes.size() - 1);
-      ++cut;
-    }
-  const ReplayResult result = replay_recordings({folder.save("a.lcm", events)});
-  CHECK(result.undecodable == 2);
-  REQUIRE(result.seams.size() == 2);
-  CHECK(result.seams[1].seam.profiles_lost == 2);
-}
-
 TEST_CASE("the channels for lcm-logplayer are those that replay begins with") {
   const Folder folder;
   const auto channels = [&](Stage stage) {
@@ -366,28 +262,4 @@ TEST_CASE("replay reads and writes no state folder") {
   CHECK(replay_recordings({path}).is_good());
   CHECK(std::filesystem::is_empty(home.path()));
   CHECK(std::distance(std::filesystem::directory_iterator(folder.path()), {}) == 1);
-}
-
-TEST_CASE("bytes flipped anywhere in a recording crash nothing") {
-  const Folder folder;
-  Recorded recorded;
-  recorded.profiles = recorded.stripes = true;
-  const auto path = folder.save("a.lcm", record(recorded));
-  std::ifstream in(path, std::ios::binary);
-  const std::string whole(std::istreambuf_iterator<char>(in), {});
-  std::mt19937 random(17);
-  int replayed = 0;
-  for (int round = 0; round < 25; ++round) {
-    std::string spoilt = whole;
-    for (int i = 0; i < 40; ++i) spoilt[random() % spoilt.size()] = static_cast<char>(random());
-    std::ofstream(folder / "b.lcm", std::ios::binary) << spoilt;
-    try {
-      replay_recordings({folder / "b.lcm"});
-      ++replayed;
-    } catch (const RecordingError&) {
-    } catch (const EventLogError&) {
-    } catch (const ConfigurationError&) {
-    }
-  }
-  CHECK(replayed > 0);
 }

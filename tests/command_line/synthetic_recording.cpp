@@ -1,6 +1,5 @@
 #include "tests/command_line/synthetic_recording.hpp"
 
-#include <Eigen/Geometry>
 #include <algorithm>
 #include <cmath>
 #include <cstdlib>
@@ -8,94 +7,22 @@
 #include <opencv2/imgcodecs.hpp>
 #include <random>
 
-#include "common/calibration_message.hpp"
 #include "services/extraction/extraction_settings.hpp"
 #include "services/reconstruction/reconstruction_settings.hpp"
 #include "services/seam_finding/seam_finding_settings.hpp"
+#include "tests/command_line/closed_form_cell.hpp"
 
 namespace arcstart::test {
 namespace {
 
-constexpr std::int64_t kSecond = 1'000'000;                  // us
-constexpr std::int64_t kDuration = 13 * kSecond;             // of the recording
-constexpr std::int64_t kScanDuration = 3'400'000;            // us
-constexpr std::int64_t kRun = kBegin - 60 * kSecond;         // run_id
-constexpr double kTimeOffset = -0.02732;                     // s
-constexpr int kImages = 46;                                  // a scan
-const Eigen::Vector3d kNear(20, -60, 0), kFar(120, 60, 10);  // corners of the base plate; mm
-constexpr double kFace = -4, kTop = 55;  // of the standing plate: y of its face, its upper edge; mm
+constexpr std::int64_t kSecond = 1'000'000;           // us
+constexpr std::int64_t kDuration = 13 * kSecond;      // of the recording
+constexpr std::int64_t kScanDuration = 3'400'000;     // us
+constexpr std::int64_t kRun = kBegin - 60 * kSecond;  // run_id
+constexpr int kImages = 46;                           // a scan
 
 std::int64_t image_utime(std::int64_t scan_id, int index) {
   return scan_id + 50'000 + index * kSecond / 14;
-}
-
-Calibration calibration(const Recorded& recorded) {
-  Calibration made;
-  made.id = "closed form";
-  made.sensor = recorded.sensor;
-  made.robot = recorded.robot;
-  made.tool = "torch";
-  made.made = kBegin - kSecond;
-  made.origin = "test";
-  SensorModel& model = made.sensor_model;
-  model.width = 640;
-  model.height = 480;
-  model.fx = model.fy = 600;
-  model.cx = 322.5;
-  model.cy = 238.25;
-  model.distortion = {-0.1, 0.02, 0.0005, -0.0003, 0};
-  // 22 deg from the optical axis, through the point 300 mm ahead.
-  const double lean = 22 * M_PI / 180;
-  model.laser_plane = {{0, std::cos(lean), -std::sin(lean)}, 300 * std::sin(lean)};
-  made.T_tool_camera = make_transform(
-      {31, -47, 82},
-      Eigen::Quaterniond(Eigen::AngleAxisd(0.4, Eigen::Vector3d(1, -2, 0.5).normalized())));
-  made.time_offset = kTimeOffset;
-  return made;
-}
-
-// The camera looks at the line of the seam from 300 mm, leaning 38 deg over the open side, its rows
-// along the stripe.
-RigidTransform T_base_camera(double seconds) {
-  double x = -10;
-  for (const std::int64_t scan : {kBackgroundScan, kWorkpieceScan}) {
-    const double begin = static_cast<double>(scan - kBegin) * 1e-6 + 0.1;
-    if (seconds >= begin - 0.5) x = -10 + 50 * std::clamp(seconds - begin, 0.0, 3.2);
-  }
-  const double lean = 38 * M_PI / 180;
-  const Eigen::Vector3d ahead(0, std::sin(lean), -std::cos(lean));
-  Eigen::Matrix3d rotation;
-  rotation << Eigen::Vector3d(0, std::cos(lean), std::sin(lean)), Eigen::Vector3d::UnitX(), ahead;
-  return make_transform(Eigen::Vector3d(x, kFace, 10) - 300 * ahead, Eigen::Quaterniond(rotation));
-}
-
-struct SurfacePoint {
-  Eigen::Vector3d position;  // in base; mm
-  std::int16_t segment;
-};
-
-// Where the laser plane of that moment meets what the camera sees of the scene, every 0.5 mm.
-std::vector<SurfacePoint> lit_points(const Plane& laser, bool with_workpiece) {
-  std::vector<SurfacePoint> points;
-  const auto x_at = [&](double y, double z) {
-    return -(laser.offset + laser.normal.y() * y + laser.normal.z() * z) / laser.normal.x();
-  };
-  const auto over_plate = [](double x) { return x >= kNear.x() && x <= kFar.x(); };
-  for (double y = -100; y <= 80; y += 0.5) {
-    const bool hidden = with_workpiece && y > kFace && over_plate(x_at(kFace, 10));
-    const bool on_plate =
-        with_workpiece && y >= kNear.y() && y <= kFar.y() && over_plate(x_at(y, kFar.z()));
-    if (hidden) continue;
-    if (on_plate)
-      points.push_back({{x_at(y, kFar.z()), y, kFar.z()}, 1});
-    else if (!(with_workpiece && y >= kNear.y() && y <= kFar.y() && over_plate(x_at(y, 0))))
-      points.push_back({{x_at(y, 0), y, 0}, static_cast<std::int16_t>(y > kFar.y() ? 3 : 0)});
-  }
-  for (double z = kFar.z(); with_workpiece && z <= kTop; z += 0.5)
-    if (over_plate(x_at(kFace, z))) points.push_back({{x_at(kFace, z), kFace, z}, 2});
-  std::stable_sort(points.begin(), points.end(),
-                   [](const auto& a, const auto& b) { return a.segment < b.segment; });
-  return points;
 }
 
 template <class Message>
@@ -110,7 +37,7 @@ void put_source(Message& message, std::int64_t scan_id, int index) {
 class Recorder {
  public:
   explicit Recorder(const Recorded& recorded)
-      : recorded_(recorded), calibration_(calibration(recorded)) {}
+      : recorded_(recorded), calibration_(calibration_of_cell(recorded.sensor, recorded.robot)) {}
 
   Events record() {
     for (std::int64_t t = 0; t < kDuration; t += 20'000) put_pose(t);

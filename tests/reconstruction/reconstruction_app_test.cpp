@@ -1,66 +1,16 @@
-#include "services/reconstruction/reconstruction_app.hpp"
-
+// The app from stripes and positions to profiles.
 #include <algorithm>
 #include <catch2/catch.hpp>
 #include <cmath>
-#include <limits>
 #include <map>
 #include <random>
 
-#include "common/calibration_message.hpp"
-#include "tests/reconstruction/synthetic_cell.hpp"
+#include "tests/reconstruction/reconstruction_chain.hpp"
 
 using namespace arcstart;
 using namespace arcstart::test;
 
 namespace {
-
-constexpr std::int64_t kSecond = 1'000'000;
-using Bytes = std::vector<std::uint8_t>;
-
-// One message on its way to the app.
-struct Event {
-  std::int64_t arrival;  // us after kBegin
-  std::string channel;
-  Bytes bytes;
-};
-
-template <class Message>
-Event event(std::int64_t arrival, const std::string& channel, const Message& message) {
-  Event result{arrival, channel, Bytes(static_cast<std::size_t>(message.getEncodedSize()))};
-  message.encode(result.bytes.data(), 0, static_cast<int>(result.bytes.size()));
-  return result;
-}
-
-// The app on a bus of its own, with all that it publishes.
-struct Chain {
-  std::unique_ptr<Bus> bus = Bus::in_memory();
-  ReconstructionApp app;
-  std::vector<Bytes> bytes;
-  std::vector<profile_t> profiles;
-
-  explicit Chain(const ReconstructionSettings& settings = {}) : app(*bus, settings, Instance{}) {
-    bus->subscribe_pattern(
-        "LASER0_PROFILE", Queue::measurements(),
-        [this](const Bytes& message, const std::string&) { bytes.push_back(message); });
-    bus->subscribe<profile_t>("LASER0_PROFILE", Queue::measurements(),
-                              [this](const profile_t& profile) { profiles.push_back(profile); });
-  }
-  template <class Message>
-  void send(const std::string& channel, const Message& message) {
-    send(event(0, channel, message));
-  }
-  void send(const Event& sent) {
-    bus->publish_bytes(sent.channel, sent.bytes);
-    bus->handle(std::chrono::milliseconds(0));
-  }
-  void stripe(const stripe_t& message) { send("LASER0_STRIPE", message); }
-  void positions(std::int64_t from, std::int64_t to) {
-    for (std::int64_t time = from; time <= to; time += 20'000) send("ROBOT0_POSE", pose_at(time));
-  }
-};
-
-calibration_t calibration() { return to_message(true_calibration()); }
 
 // A scan with all that can go wrong in it, in order of arrival.
 std::vector<Event> eventful_scan() {
@@ -208,119 +158,4 @@ TEST_CASE("the same bytes come out for any shift between the channels up to 300 
     for (const Event& sent : shifted) chain.send(sent);
     CHECK(chain.bytes == reference.bytes);
   }
-}
-
-TEST_CASE("a calibration that does not hold together is refused, and the one before stays") {
-  const auto refused = [](auto change, const std::string& why) {
-    Chain chain;
-    chain.positions(0, kSecond);
-    calibration_t bad = calibration();
-    bad.id = "ffffffffffffffff";
-    change(bad);
-    chain.send("LASER0_CALIBRATION", bad);
-    chain.stripe(stripe_at(300'000, 0, 42).message);
-    CHECK(chain.profiles.empty());  // it waits for a calibration
-    INFO(chain.app.health().last_error);
-    CHECK(chain.app.health().last_error.find(why) != std::string::npos);
-    CHECK(chain.app.health().state == service_status_t::DEGRADED);
-    chain.send("LASER0_CALIBRATION", calibration());
-    REQUIRE(chain.profiles.size() == 1);
-    CHECK(chain.profiles[0].empty == "");
-    chain.send("LASER0_CALIBRATION", bad);
-    chain.stripe(stripe_at(400'000, 1, 42).message);
-    REQUIRE(chain.profiles.size() == 2);
-    CHECK(chain.profiles[1].calibration_id == calibration().id);
-  };
-  refused([](calibration_t& m) { m.pixel_to_camera[0][2] *= 1 + 1e-9; }, "matrix M");
-  refused([](calibration_t& m) { m.pixel_to_camera[3][0] += 1e-9; }, "matrix M");
-  refused([](calibration_t& m) { m.laser_plane[3] += 1e-6; }, "matrix M");
-  refused([](calibration_t& m) { m.camera_matrix[0] += 0.1; }, "matrix M");
-  refused([](calibration_t& m) { m.sensor = "LASER1"; }, "of sensor LASER1, this is LASER0");
-  refused([](calibration_t& m) { m.robot = "ROBOT1"; }, "of robot ROBOT1, this is ROBOT0");
-  refused([](calibration_t& m) { m.distortion[0] = -5; }, "folds");
-  refused([](calibration_t& m) { m.utime = 0; }, "when it was made");
-}
-
-TEST_CASE("other numbers under the id in force are refused") {
-  Chain chain;
-  chain.send("LASER0_CALIBRATION", calibration());
-  chain.send("LASER0_CALIBRATION", calibration());
-  CHECK(chain.app.health().last_error == "");
-  Calibration other = true_calibration();
-  other.T_tool_camera.translation().x() += 0.001;
-  chain.send("LASER0_CALIBRATION", to_message(other));
-  CHECK(chain.app.health().last_error.find("has the id of the one in force") != std::string::npos);
-  chain.send("LASER0_CALIBRATION", calibration());
-  CHECK(chain.app.health().last_error == "");
-}
-
-TEST_CASE("what is not finite or not of unit length never comes in, and is counted") {
-  const double nan = std::numeric_limits<double>::quiet_NaN();
-  Chain chain;
-  calibration_t bad = calibration();
-  bad.laser_plane[3] = nan;
-  chain.send("LASER0_CALIBRATION", bad);
-  bad = calibration();
-  bad.camera_quaternion[0] += 0.01;
-  chain.send("LASER0_CALIBRATION", bad);
-  chain.send("LASER0_CALIBRATION", calibration());
-  robot_pose_t pose = pose_at(300'000);
-  pose.position[1] = nan;
-  chain.send("ROBOT0_POSE", pose);
-  stripe_t stripe = stripe_at(290'000, 0, 42).message;
-  stripe.u[3] = std::numeric_limits<float>::infinity();
-  chain.stripe(stripe);
-  pose = pose_at(300'000);
-  pose.utime = std::numeric_limits<std::int64_t>::max();
-  chain.send("ROBOT0_POSE", pose);
-  CHECK(chain.bus->undecodable() == 5);
-  chain.positions(0, kSecond);
-  chain.stripe(stripe_at(290'000, 0, 42).message);
-  REQUIRE(chain.profiles.size() == 1);
-  CHECK(chain.profiles[0].empty == "");
-}
-
-TEST_CASE("what is lost, invalid or silent is told") {
-  ReconstructionSettings settings;
-  settings.silence_warning_s = 0.1;
-  Chain chain(settings);
-  chain.send("LASER0_CALIBRATION", calibration());
-  chain.positions(0, 200'000);
-  chain.positions(280'000, 300'000);  // three positions are missing: 220, 240, 260
-  chain.stripe(stripe_at(100'000, 0, 42).message);
-  chain.stripe(stripe_at(130'000, 3, 42).message);  // two are missing
-  chain.stripe(stripe_at(150'000, 0, 43).message);  // another scan begins anew
-  CHECK(chain.app.health().lost == 5);
-  robot_pose_t pose = pose_at(320'000);
-  pose.invalid = "controller in error";
-  chain.send("ROBOT0_POSE", pose);
-  CHECK(chain.app.health().lost == 5);
-  CHECK(chain.app.health().last_error ==
-        "ROBOT0_POSE: a position was dropped: controller in error");
-  chain.positions(340'000, 340'000);
-  CHECK(chain.app.health().last_error == "");
-  chain.positions(260'000, 260'000);  // going back
-  CHECK(chain.app.health().lost == 6);
-  CHECK(chain.app.health().last_error.find("jumps or goes back") != std::string::npos);
-
-  chain.stripe(stripe_at(900'000, 1, 43).message);
-  std::this_thread::sleep_for(std::chrono::milliseconds(150));
-  const Health health = chain.app.health();
-  CHECK(health.oldest_age >= 100'000);
-  CHECK(health.state == service_status_t::DEGRADED);
-  CHECK(health.last_error.find("stripes wait for positions on ROBOT0_POSE") != std::string::npos);
-  const std::size_t before = chain.profiles.size();
-  chain.bus->handle(std::chrono::milliseconds(0));
-  CHECK(chain.profiles.size() == before);  // nothing by the clock
-}
-
-TEST_CASE("settings stand in cell.yaml with their limits") {
-  const auto settings = Configuration::from_text("reconstruction:\n  keep_every: 1\n", "cell.yaml")
-                            .read<ReconstructionSettings>("reconstruction");
-  CHECK(settings.keep_every == 1);
-  CHECK(settings.keep_positions_s == 10);
-  CHECK(ReconstructionSettings{}.keep_every == 15);
-  CHECK_THROWS_WITH(Configuration::from_text("reconstruction:\n  keep_every: 0\n", "cell.yaml")
-                        .read<ReconstructionSettings>("reconstruction"),
-                    Catch::Matchers::Contains("cell.yaml:2: reconstruction.keep_every"));
 }

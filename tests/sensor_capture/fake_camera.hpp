@@ -122,4 +122,25 @@ class FakeCamera {
   ArvFakeCamera* fake_;
 };
 
+// A part of the fake's sensor, at 25 frames a second.
+inline SensorCaptureSettings settings_of_test() {
+  SensorCaptureSettings settings;
+  settings.frame_rate_hz = 25;
+  settings.exposure_us = 5'000;
+  settings.region_offset_u_px = 16;
+  settings.region_offset_v_px = 8;
+  settings.region_width_px = 160;
+  settings.region_height_px = 120;
+  return settings;
+}
+
+// When the fake says that the exposure began; ns, UTC.
+inline std::int64_t exposure_begin(const Frame& frame) {
+  std::int64_t begin;
+  std::memcpy(&begin, frame.pixels.data(), sizeof begin);
+  return begin;
+}
+
+inline std::uint8_t grey(const Frame& frame) { return frame.pixels.back(); }
+
 }  // namespace arcstart::test

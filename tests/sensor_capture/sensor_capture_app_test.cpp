@@ -1,144 +1,14 @@
-// The app on an in-memory bus, its camera a script whose clock is ahead of the host's by a known
-// amount.
-#include "services/sensor_capture/sensor_capture_app.hpp"
-
+// The app with a scripted camera: its scans, its state and what is wrong with the camera.
 #include <catch2/catch.hpp>
 #include <opencv2/imgcodecs.hpp>
-#include <thread>
 
-#include "common/time.hpp"
+#include "tests/sensor_capture/scripted_cell.hpp"
 
 using namespace arcstart;
-
-namespace {
-
-constexpr std::int64_t kDeviceAhead = 5'000'000'000;  // us
-constexpr std::int64_t kExposure = 4'000;             // us
-constexpr std::int64_t ms = 1000;
-
-struct Script {
-  std::deque<SourceEvent> events;
-  std::vector<std::pair<std::int64_t, CameraSettings>> requests;
-  bool stopped = false;
-  SourceCounts counts;
-};
-
-struct ScriptedSource : FrameSource {
-  Script& script;
-  explicit ScriptedSource(Script& s) : script(s) {}
-  void start() override {}
-  void stop() override { script.stopped = true; }
-  void request(std::int64_t ticket, const CameraSettings& settings) override {
-    script.requests.push_back({ticket, settings});
-  }
-  std::optional<SourceEvent> poll() override {
-    if (script.events.empty()) return std::nullopt;
-    auto event = script.events.front();
-    script.events.pop_front();
-    return event;
-  }
-  SourceCounts counts() const override { return script.counts; }
-};
-
-struct Cell {
-  std::unique_ptr<Bus> bus = Bus::in_memory();
-  Script script;
-  SensorCaptureSettings settings;
-  std::vector<image_t> images, previews;
-  std::vector<scan_t> scans;
-  std::vector<std::string> order;  // of channels
-  std::unique_ptr<SensorCaptureApp> app;
-  std::size_t answered = 0;
-  std::int64_t seq = 100;
-
-  explicit Cell(SensorCaptureSettings given = {}) : settings(given) {
-    settings.exposure_us = kExposure;
-    settings.settle_margin_ms = 2;
-    const auto keep = [this](auto& list, const char* name) {
-      return [this, &list, name](const auto& message) {
-        list.push_back(message);
-        order.push_back(name);
-      };
-    };
-    bus->subscribe<image_t>("LASER0_IMAGE", Queue::images(), keep(images, "image"));
-    bus->subscribe<image_t>("LASER0_PREVIEW", Queue::images(), keep(previews, "preview"));
-    bus->subscribe<scan_t>("LASER0_SCAN", Queue::measurements(), keep(scans, "scan"));
-    app = std::make_unique<SensorCaptureApp>(*bus, settings, Instance{}, 55,
-                                             std::make_unique<ScriptedSource>(script));
-  }
-  void step() {
-    app->tick(utime_now());
-    while (bus->handle(std::chrono::milliseconds(0))) app->tick(utime_now());
-  }
-  void find_camera() {
-    CameraFound found;
-    found.description = "a script";
-    found.settings = {kExposure, 0, false};
-    script.events.push_back(found);
-    step();
-    answer();
-  }
-  // The camera does at once what was asked last.
-  void answer() {
-    for (; answered < script.requests.size(); ++answered)
-      script.events.push_back(SettingsApplied{
-          script.requests[answered].first, script.requests[answered].second, utime_now(), {}});
-    step();
-  }
-  // A frame exposed now; it arrives as its exposure begins.
-  Frame make_frame() {
-    Frame frame;
-    frame.seq = ++seq;
-    frame.width = 8;
-    frame.height = 4;
-    frame.offset_u = 16;
-    frame.offset_v = 2;
-    frame.sensor_width = 40;
-    frame.sensor_height = 30;
-    frame.arrival_utime = utime_now();
-    frame.device_time_ns = (frame.arrival_utime + kDeviceAhead) * 1000 + 321;
-    frame.pixels.assign(32, static_cast<std::uint8_t>(seq));
-    return frame;
-  }
-  void expose() {
-    script.events.push_back(make_frame());
-    step();
-    std::this_thread::sleep_for(std::chrono::milliseconds(8));
-  }
-  void settle() { std::this_thread::sleep_for(std::chrono::milliseconds(6)); }
-  void scan_command(std::int64_t id, std::int8_t action, double longest_s = 60) {
-    scan_command_t command{};
-    command.utime = utime_now();
-    command.command_id = id;
-    command.action = action;
-    command.kind = scan_t::WORKPIECE;
-    command.longest_duration = longest_s;
-    bus->publish("LASER0_SCAN_COMMAND", command);
-    while (bus->handle(std::chrono::milliseconds(0))) {
-    }
-    step();
-  }
-  void camera_command(std::int64_t id, std::int32_t wanted, std::int8_t laser,
-                      double exposure_us = 0, double gain_db = -1) {
-    camera_command_t command{};
-    command.utime = utime_now();
-    command.command_id = id;
-    command.images = wanted;
-    command.laser = laser;
-    command.exposure_us = exposure_us;
-    command.gain_db = gain_db;
-    bus->publish("LASER0_CAMERA_COMMAND", command);
-    while (bus->handle(std::chrono::milliseconds(0))) {
-    }
-    step();
-  }
-  bool laser_asked() const { return script.requests.back().second.laser_on; }
-};
-
-}  // namespace
+using namespace arcstart::test;
 
 TEST_CASE("sensor_capture: without a scan there is a preview and the scan's state, no image") {
-  Cell cell;
+  ScriptedCell cell;
   cell.find_camera();
   const std::int64_t begin = steady_now();
   for (int i = 0; i < 5; ++i) cell.expose();
@@ -153,7 +23,7 @@ TEST_CASE("sensor_capture: without a scan there is a preview and the scan's stat
 }
 
 TEST_CASE("sensor_capture: a scan's images, their fields and its state") {
-  Cell cell;
+  ScriptedCell cell;
   cell.find_camera();
   cell.expose();
   cell.scan_command(7, scan_command_t::START);
@@ -183,7 +53,7 @@ TEST_CASE("sensor_capture: a scan's images, their fields and its state") {
     CHECK(image.offset_v == 2);
     CHECK(image.sensor_width == 40);
     CHECK(image.sensor_height == 30);
-    CHECK(image.exposure_us == kExposure);
+    CHECK(image.exposure_us == kScriptedExposure);
     CHECK(image.gain_db == 0);
     CHECK(image.laser_on);
     CHECK(image.command_id == 0);
@@ -192,7 +62,7 @@ TEST_CASE("sensor_capture: a scan's images, their fields and its state") {
     CHECK(image.data == std::vector<std::uint8_t>(32, static_cast<std::uint8_t>(103 + i)));
     // The middle of the exposure. The clock's mapping stands still: the difference is the first
     // frame's, and here every frame arrives as it is stamped.
-    CHECK(image.utime == image.device_time_ns / 1000 - kDeviceAhead + kExposure / 2);
+    CHECK(image.utime == image.device_time_ns / 1000 - kDeviceAhead + kScriptedExposure / 2);
     CHECK(image.arrival_utime == image.device_time_ns / 1000 - kDeviceAhead);
   }
   const scan_t& ended = cell.scans.back();
@@ -213,7 +83,7 @@ TEST_CASE("sensor_capture: a scan's images, their fields and its state") {
 }
 
 TEST_CASE("sensor_capture: the clock's mapping stands still while a scan runs") {
-  Cell cell;
+  ScriptedCell cell;
   cell.find_camera();
   Frame late = cell.make_frame();
   late.arrival_utime += 3'000;  // so far the shortest delay is 3 ms
@@ -227,11 +97,12 @@ TEST_CASE("sensor_capture: the clock's mapping stands still while a scan runs") 
   cell.expose();
   REQUIRE_FALSE(cell.images.empty());
   for (const image_t& image : cell.images)
-    CHECK(image.utime == image.device_time_ns / 1000 - kDeviceAhead + 3'000 + kExposure / 2);
+    CHECK(image.utime ==
+          image.device_time_ns / 1000 - kDeviceAhead + 3'000 + kScriptedExposure / 2);
 }
 
 TEST_CASE("sensor_capture: a start without a camera is refused, with why") {
-  Cell cell;
+  ScriptedCell cell;
   cell.script.events.push_back(CameraLost{"camera 10.0.0.2 is lost: no frame for 0.7 s"});
   cell.step();
   CHECK(cell.app->health().state == service_status_t::FAULT);
@@ -244,7 +115,7 @@ TEST_CASE("sensor_capture: a start without a camera is refused, with why") {
 }
 
 TEST_CASE("sensor_capture: a camera lost in a scan ends it; found again it is dark") {
-  Cell cell;
+  ScriptedCell cell;
   CHECK(cell.app->health().state == service_status_t::STARTING);
   cell.find_camera();
   CHECK(cell.app->health().state == service_status_t::RUNNING);
@@ -277,7 +148,7 @@ TEST_CASE("sensor_capture: a camera lost in a scan ends it; found again it is da
 }
 
 TEST_CASE("sensor_capture: incomplete frames go out without bytes, with the reason") {
-  Cell cell;
+  ScriptedCell cell;
   cell.find_camera();
   cell.scan_command(7, scan_command_t::START);
   cell.answer();
@@ -308,7 +179,7 @@ TEST_CASE("sensor_capture: incomplete frames go out without bytes, with the reas
 TEST_CASE("sensor_capture: png carries the same pixels") {
   SensorCaptureSettings settings;
   settings.encoding = "png";
-  Cell cell(settings);
+  ScriptedCell cell(settings);
   cell.find_camera();
   cell.scan_command(7, scan_command_t::START);
   cell.answer();
@@ -323,83 +194,10 @@ TEST_CASE("sensor_capture: png carries the same pixels") {
   CHECK(cv::countNonZero(image != static_cast<int>(cell.images[0].seq)) == 0);
 }
 
-TEST_CASE("sensor_capture: a camera command's images, surely under its settings") {
-  Cell cell;
-  cell.find_camera();
-  cell.expose();
-  const Frame before = cell.make_frame();  // on its way when the command comes
-  cell.settle();
-  cell.camera_command(31, 2, camera_command_t::LASER_ON, 9'000, 6);
-  cell.script.events.push_back(before);
-  cell.step();
-  CHECK(cell.images.empty());
-  CHECK(cell.script.requests.back().second == CameraSettings{9'000, 6, true});
-  cell.expose();
-  CHECK(cell.images.empty());
-  cell.answer();
-  cell.settle();
-  cell.expose();  // may still have the old exposure
-  CHECK(cell.images.empty());
-  cell.expose();
-  cell.expose();
-  REQUIRE(cell.images.size() == 2);
-  for (const image_t& image : cell.images) {
-    CHECK(image.command_id == 31);
-    CHECK(image.scan_id == 0);
-    CHECK(image.scan_index == -1);
-    CHECK(image.exposure_us == 9'000);
-    CHECK(image.gain_db == 6);
-    CHECK(image.laser_on);
-  }
-  // Then as configured, and dark.
-  CHECK(cell.script.requests.back().second == CameraSettings{kExposure, 0, false});
-  cell.answer();
-  for (int i = 0; i < 4; ++i) cell.expose();
-  CHECK(cell.images.size() == 2);
-  cell.camera_command(31, 2, camera_command_t::LASER_ON, 9'000, 6);  // repeated
-  CHECK(cell.script.requests.back().second == CameraSettings{kExposure, 0, false});
-}
-
-TEST_CASE("sensor_capture: camera commands give way to scans, and are refused while they run") {
-  Cell cell;
-  cell.find_camera();
-  cell.camera_command(31, 50, camera_command_t::LASER_OFF, 9'000);
-  cell.scan_command(7, scan_command_t::START);
-  CHECK(cell.script.requests.back().second == CameraSettings{kExposure, 0, true});
-  cell.answer();
-  cell.settle();
-  cell.camera_command(32, 5, camera_command_t::LASER_OFF, 1'000);
-  CHECK(cell.script.requests.back().second == CameraSettings{kExposure, 0, true});
-  for (int i = 0; i < 4; ++i) cell.expose();
-  // The first one is lit, but may still have the command's exposure.
-  REQUIRE(cell.images.size() == 3);
-  for (const image_t& image : cell.images) {
-    CHECK(image.scan_id > 0);
-    CHECK(image.exposure_us == kExposure);
-  }
-}
-
-TEST_CASE("sensor_capture: settings that the camera cannot do end the command") {
-  Cell cell;
-  cell.find_camera();
-  cell.camera_command(31, 1, camera_command_t::LASER_OFF, 500'000);
-  cell.script.events.push_back(SettingsApplied{cell.script.requests.back().first,
-                                               cell.script.requests.back().second, utime_now(),
-                                               "exposure of 500000 us: at most 100000"});
-  cell.answered = cell.script.requests.size();
-  cell.step();
-  CHECK(cell.app->health().state == service_status_t::DEGRADED);
-  CHECK(cell.app->health().last_error.find("500000 us") != std::string::npos);
-  cell.answer();
-  for (int i = 0; i < 4; ++i) cell.expose();
-  CHECK(cell.images.empty());
-  CHECK(cell.script.requests.back().second == CameraSettings{kExposure, 0, false});
-}
-
 TEST_CASE("sensor_capture: a laser that is wired to the camera counts as lit") {
-  Cell cell;
+  ScriptedCell cell;
   CameraFound found;
-  found.settings = {kExposure, 0, false};
+  found.settings = {kScriptedExposure, 0, false};
   found.wired_laser = true;
   cell.script.events.push_back(found);
   cell.step();
@@ -416,7 +214,7 @@ TEST_CASE("sensor_capture: the robot's standing still ends a scan where so confi
   SensorCaptureSettings settings;
   settings.end_when_still = true;
   settings.still_duration_s = 0.1;
-  Cell cell(settings);
+  ScriptedCell cell(settings);
   cell.find_camera();
   cell.scan_command(7, scan_command_t::START);
   cell.answer();
@@ -430,18 +228,18 @@ TEST_CASE("sensor_capture: the robot's standing still ends a scan where so confi
     pose.invalid = invalid;
     cell.bus->publish("ROBOT0_POSE", pose);
   };
-  for (int i = 0; i < 10; ++i) publish(begin + 10 * ms * (i + 1), 10.0 * i, "clock");
-  for (int i = 0; i < 30; ++i) publish(begin + 10 * ms * (i + 1), 0, "");
+  for (int i = 0; i < 10; ++i) publish(begin + 10'000 * (i + 1), 10.0 * i, "clock");
+  for (int i = 0; i < 30; ++i) publish(begin + 10'000 * (i + 1), 0, "");
   cell.step();
   CHECK(cell.laser_asked());
-  for (int i = 30; i < 42; ++i) publish(begin + 10 * ms * (i + 1), 5, "");
+  for (int i = 30; i < 42; ++i) publish(begin + 10'000 * (i + 1), 5, "");
   cell.step();
   CHECK_FALSE(cell.laser_asked());
 }
 
 TEST_CASE(
     "sensor_capture: the state is repeated 5 times a second; the camera is let go at the end") {
-  Cell cell;
+  ScriptedCell cell;
   cell.find_camera();
   const std::size_t before = cell.scans.size();
   const std::int64_t begin = steady_now();
