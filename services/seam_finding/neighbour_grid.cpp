@@ -1,7 +1,7 @@
 #include "services/seam_finding/neighbour_grid.hpp"
 
 #include <algorithm>
-#include <bit>
+#include <array>
 #include <cmath>
 
 namespace arcstart {
@@ -9,6 +9,15 @@ namespace {
 
 constexpr int kBias = 1 << 20;  // cells on either side of the origin; 21 bits an axis
 constexpr std::size_t kCrowd = 256;
+constexpr std::size_t kFirstSlots = 256;
+
+// std::floor is a call of a library where the processor is not known to have an instruction for it.
+int floor_within_range(double value) {
+  if (!(value >= -kBias)) return -kBias;  // also what is no number
+  if (value >= kBias - 1) return kBias - 1;
+  const int truncated = static_cast<int>(value);
+  return truncated - (value < truncated);
+}
 
 std::size_t hash(std::uint64_t key) {
   key ^= key >> 31;
@@ -27,40 +36,92 @@ std::uint64_t NeighbourGrid::key_of(const Cell& cell) {
 
 NeighbourGrid::Cell NeighbourGrid::cell_of(const Eigen::Vector3d& point) const {
   Cell cell;
-  for (int axis = 0; axis < 3; ++axis)
-    cell[axis] =
-        static_cast<int>(std::clamp<double>(std::floor(point[axis] / cell_mm_), -kBias, kBias - 1));
+  for (int axis = 0; axis < 3; ++axis) cell[axis] = floor_within_range(point[axis] / cell_mm_);
   return cell;
 }
 
+// Points mostly come in the order of a stripe, many of one cell in a row: a cell is looked up once
+// for a run of them. Sorted are the cells alone, the points then counted into them.
 NeighbourGrid::NeighbourGrid(const std::vector<Eigen::Vector3d>& points, double cell_mm)
     : points_(points), cell_mm_(cell_mm), order_(points.size()) {
-  std::vector<std::pair<std::uint64_t, int>> keyed(points.size());
-  for (std::size_t i = 0; i < points.size(); ++i)
-    keyed[i] = {key_of(cell_of(points[i])), static_cast<int>(i)};
-  std::sort(keyed.begin(), keyed.end());
-  for (std::size_t i = 0; i < keyed.size(); ++i) {
-    if (i == 0 || keyed[i].first != keyed[i - 1].first) {
-      keys_.push_back(keyed[i].first);
-      begins_.push_back(static_cast<int>(i));
+  std::vector<int> cell_of_point(points.size());
+  slots_.assign(kFirstSlots, -1);
+  std::vector<int> counts;
+  for (std::size_t i = 0; i < points.size(); ++i) {
+    const std::uint64_t key = key_of(cell_of(points[i]));
+    if (i > 0 && key == keys_[cell_of_point[i - 1]]) {
+      ++counts[cell_of_point[i] = cell_of_point[i - 1]];
+      continue;
     }
-    order_[i] = keyed[i].second;
+    int& found = slots_[slot_of(key)];
+    if (found < 0) {
+      found = static_cast<int>(keys_.size());
+      keys_.push_back(key);
+      counts.push_back(0);
+    }
+    ++counts[cell_of_point[i] = found];
+    if (2 * keys_.size() >= slots_.size()) grow_slots(2 * slots_.size());
   }
-  begins_.push_back(static_cast<int>(keyed.size()));
-  slots_.assign(std::bit_ceil(2 * keys_.size() + 1), -1);
-  for (std::size_t i = 0; i < keys_.size(); ++i) {
-    std::size_t slot = hash(keys_[i]) & (slots_.size() - 1);
-    while (slots_[slot] >= 0) slot = (slot + 1) & (slots_.size() - 1);
-    slots_[slot] = static_cast<int>(i);
+  std::vector<int> rising(keys_.size()), rank(keys_.size());
+  for (std::size_t i = 0; i < rising.size(); ++i) rising[i] = static_cast<int>(i);
+  std::sort(rising.begin(), rising.end(), [&](int a, int b) { return keys_[a] < keys_[b]; });
+  std::vector<std::uint64_t> keys(keys_.size());
+  begins_.assign(keys_.size() + 1, 0);
+  for (std::size_t i = 0; i < rising.size(); ++i) {
+    rank[rising[i]] = static_cast<int>(i);
+    keys[i] = keys_[rising[i]];
+    begins_[i + 1] = begins_[i] + counts[rising[i]];
   }
+  keys_ = std::move(keys);
+  grow_slots(slots_.size());
+  std::vector<int> next = begins_;
+  for (std::size_t i = 0; i < points.size(); ++i)
+    order_[next[rank[cell_of_point[i]]]++] = static_cast<int>(i);
 }
 
-int NeighbourGrid::index_of(const Cell& cell) const {
-  const std::uint64_t key = key_of(cell);
-  for (std::size_t slot = hash(key) & (slots_.size() - 1); slots_[slot] >= 0;
-       slot = (slot + 1) & (slots_.size() - 1))
-    if (keys_[slots_[slot]] == key) return slots_[slot];
-  return -1;
+void NeighbourGrid::grow_slots(std::size_t size) {
+  slots_.assign(size, -1);
+  for (std::size_t i = 0; i < keys_.size(); ++i) slots_[slot_of(keys_[i])] = static_cast<int>(i);
+}
+
+std::size_t NeighbourGrid::slot_of(std::uint64_t key) const {
+  std::size_t slot = hash(key) & (slots_.size() - 1);
+  while (slots_[slot] >= 0 && keys_[slots_[slot]] != key) slot = (slot + 1) & (slots_.size() - 1);
+  return slot;
+}
+
+int NeighbourGrid::index_of(const Cell& cell) const { return slots_[slot_of(key_of(cell))]; }
+
+// Cells are in the order of x, y, z: those that touch one lie in nine columns, in each next to each
+// other, and nine places move on through the list as the cell does.
+NeighbourGrid::Adjacency NeighbourGrid::adjacency() const {
+  Adjacency adjacency;
+  adjacency.begins.reserve(keys_.size() + 1);
+  adjacency.cells.reserve(9 * keys_.size());
+  std::array<std::size_t, 9> places{};
+  for (int i = 0; i < cell_count(); ++i) {
+    adjacency.begins.push_back(static_cast<int>(adjacency.cells.size()));
+    const Cell middle = cell(i);
+    for (int column = 0; column < 9; ++column) {
+      const int x = middle.x() + column / 3 - 1, y = middle.y() + column % 3 - 1;
+      if (std::min(x, y) < -kBias || std::max(x, y) >= kBias) continue;
+      const std::uint64_t first = key_of({x, y, std::max(middle.z() - 1, -kBias)});
+      const std::uint64_t last = key_of({x, y, middle.z() + 1});
+      std::size_t& place = places[column];
+      while (place < keys_.size() && keys_[place] < first) ++place;
+      for (std::size_t j = place; j < keys_.size() && keys_[j] <= last; ++j)
+        adjacency.cells.push_back(static_cast<int>(j));
+    }
+  }
+  adjacency.begins.push_back(static_cast<int>(adjacency.cells.size()));
+  return adjacency;
+}
+
+std::vector<int> NeighbourGrid::cells_of_points() const {
+  std::vector<int> cells(order_.size());
+  for (int i = 0; i < cell_count(); ++i)
+    for (const int point : points_in(i)) cells[point] = i;
+  return cells;
 }
 
 NeighbourGrid::Cell NeighbourGrid::cell(int index) const {

@@ -35,6 +35,20 @@ class NeighbourGrid {
           if (const int i = index_of(Cell(middle + Cell(x, y, z))); i >= 0) visit(i);
   }
 
+  // For every cell the occupied cells that touch it, itself included, in the order of
+  // for_each_around(): one list behind the other, that of cell i from begins[i] to begins[i + 1].
+  struct Adjacency {
+    std::vector<int> begins, cells;
+    std::span<const int> of(int cell) const {
+      const auto i = static_cast<std::size_t>(cell);
+      return {cells.data() + begins[i], static_cast<std::size_t>(begins[i + 1] - begins[i])};
+    }
+  };
+  Adjacency adjacency() const;
+
+  // The cell of each point, as an index.
+  std::vector<int> cells_of_points() const;
+
   // Distances to the k nearest other points within the cells around, rising; fewer where there are
   // fewer. Of a crowded cell only 256 points are looked at, evenly taken.
   void nearest_distances(int point, int k, std::vector<double>& distances) const;
@@ -44,6 +58,8 @@ class NeighbourGrid {
 
  private:
   static std::uint64_t key_of(const Cell& cell);
+  std::size_t slot_of(std::uint64_t key) const;  // where it is, or would be
+  void grow_slots(std::size_t size);
   const std::vector<Eigen::Vector3d>& points_;
   double cell_mm_;
   std::vector<int> order_;           // point indices, cell by cell

@@ -65,3 +65,21 @@ TEST_CASE("a crowd of equal points is answered from a part of it") {
   for (int i = 0; i < 2000; ++i) grid.nearest_distances(i, 10, distances);
   CHECK(distances == std::vector<double>(10, 0.0));
 }
+
+TEST_CASE("cells that touch are the same by the list of all and by looking each up") {
+  for (const double half_side : {3.0, 30.0, 1e8}) {
+    const auto points = random_points(3000, half_side);
+    const NeighbourGrid grid(points, half_side < 1e6 ? 2.5 : 40);
+    const auto adjacency = grid.adjacency();
+    const auto cells = grid.cells_of_points();
+    for (int i = 0; i < grid.cell_count(); ++i) {
+      std::vector<int> around;
+      grid.for_each_around(grid.cell(i), [&](int j) { around.push_back(j); });
+      const auto listed = adjacency.of(i);
+      std::sort(around.begin(), around.end());
+      around.erase(std::unique(around.begin(), around.end()), around.end());
+      REQUIRE(around == std::vector<int>(listed.begin(), listed.end()));
+      for (const int point : grid.points_in(i)) REQUIRE(cells[point] == i);
+    }
+  }
+}
