@@ -3,7 +3,10 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <array>
 #include <memory>
+#include <span>
+#include <vector>
 
 #include "services/seam_finding/neighbour_grid.hpp"
 #include "services/seam_finding/plane_fit.hpp"
@@ -15,6 +18,12 @@ class Background {
  public:
   virtual ~Background() = default;
   virtual bool contains(const Eigen::Vector3d& point) const = 0;
+
+  // Appends for each of the points whether it is contained. Fast where neighbouring points follow
+  // each other.
+  virtual void classify(std::span<const Eigen::Vector3d> points, std::vector<char>& inside) const {
+    for (const Eigen::Vector3d& point : points) inside.push_back(contains(point));
+  }
 };
 
 // Near the background's local surface. In every cell of a grid a plane is laid through what lies in
@@ -29,12 +38,26 @@ class SurfaceBackground : public Background {
   // own noise.
   SurfaceBackground(const ScanCloud& cloud, double distance_mm);
   bool contains(const Eigen::Vector3d& point) const override;
+  void classify(std::span<const Eigen::Vector3d> points, std::vector<char>& inside) const override;
 
  private:
   struct Surface {
-    PlaneSums::Fit fit;
+    Eigen::Vector3d centroid = Eigen::Vector3d::Zero();
+    Plane plane;
     bool is_plane = false;
+    Eigen::Vector3d low, high;  // of the cell's points
   };
+  // The surfaces near a cell: their centroids from its lowest corner, side by side.
+  struct Surroundings {
+    NeighbourGrid::Cell middle;
+    Eigen::Vector3d corner;
+    int count;
+    std::array<int, 28> cells;
+    std::array<float, 28> x, y, z;
+  };
+  void look_around(const NeighbourGrid::Cell& middle, Surroundings& around) const;
+  bool contains(const Eigen::Vector3d& point, const Surroundings& around) const;
+
   Sampling sampling_;
   double distance_;
   NeighbourGrid grid_;

@@ -177,8 +177,10 @@ SeamResult find_seam(const ScanCloud& scan, const Background& background,
   const Scales scales = scales_of(scan, sampling, settings.plane_tolerance_mm);
 
   std::vector<int> left;
-  for (int i = 0; i < scan.size(); ++i)
-    (background.contains(scan.points[i]) ? result.background : left).push_back(i);
+  std::vector<char> is_background;
+  is_background.reserve(scan.points.size());
+  background.classify(scan.points, is_background);
+  for (int i = 0; i < scan.size(); ++i) (is_background[i] ? result.background : left).push_back(i);
 
   const PlaneSearch plane = plane_search(scales, settings);
   const JointSearch joint = joint_search(scan, scales, settings);

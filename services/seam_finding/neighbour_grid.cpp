@@ -10,6 +10,7 @@ namespace {
 constexpr int kBias = 1 << 20;  // cells on either side of the origin; 21 bits an axis
 constexpr std::size_t kCrowd = 256;
 constexpr std::size_t kFirstSlots = 256;
+constexpr double kBoxCells = 64;  // of a box for each that holds points
 
 // std::floor is a call of a library where the processor is not known to have an instruction for it.
 int floor_within_range(double value) {
@@ -74,6 +75,7 @@ NeighbourGrid::NeighbourGrid(const std::vector<Eigen::Vector3d>& points, double 
   }
   keys_ = std::move(keys);
   grow_slots(slots_.size());
+  fill_box();
   std::vector<int> next = begins_;
   for (std::size_t i = 0; i < points.size(); ++i)
     order_[next[rank[cell_of_point[i]]]++] = static_cast<int>(i);
@@ -90,7 +92,32 @@ std::size_t NeighbourGrid::slot_of(std::uint64_t key) const {
   return slot;
 }
 
-int NeighbourGrid::index_of(const Cell& cell) const { return slots_[slot_of(key_of(cell))]; }
+void NeighbourGrid::fill_box() {
+  if (keys_.empty()) return;
+  Cell high = low_ = cell(0);
+  for (int i = 1; i < cell_count(); ++i)
+    low_ = low_.cwiseMin(cell(i)), high = high.cwiseMax(cell(i));
+  size_ = high - low_ + Cell::Ones();
+  if (size_.cast<double>().prod() > kBoxCells * static_cast<double>(keys_.size()) + kBoxCells)
+    return;
+  box_.assign(static_cast<std::size_t>(size_.prod()), -1);
+  for (int i = 0; i < cell_count(); ++i) {
+    const Cell place = cell(i) - low_;
+    box_[(place.x() * size_.y() + place.y()) * size_.z() + place.z()] = i;
+  }
+}
+
+int NeighbourGrid::index_of(const Cell& cell) const {
+  if (keys_.empty()) return -1;
+  // A negative number is a very large one without sign.
+  const auto x = static_cast<unsigned>(cell.x()) - static_cast<unsigned>(low_.x());
+  const auto y = static_cast<unsigned>(cell.y()) - static_cast<unsigned>(low_.y());
+  const auto z = static_cast<unsigned>(cell.z()) - static_cast<unsigned>(low_.z());
+  const auto sx = static_cast<unsigned>(size_.x()), sy = static_cast<unsigned>(size_.y()),
+             sz = static_cast<unsigned>(size_.z());
+  if (x >= sx || y >= sy || z >= sz) return -1;
+  return box_.empty() ? slots_[slot_of(key_of(cell))] : box_[(x * sy + y) * sz + z];
+}
 
 // Cells are in the order of x, y, z: those that touch one lie in nine columns, in each next to each
 // other, and nine places move on through the list as the cell does.

@@ -1,5 +1,8 @@
 #include <algorithm>
+#include <array>
 #include <cmath>
+#include <cstring>
+#include <limits>
 
 #include "services/seam_finding/background.hpp"
 
@@ -13,9 +16,36 @@ constexpr double kLeastSpread =
     0.6;  // of a window across its stripes, in spacings; two stripes give 0.5, three 0.82
 constexpr double kRoughSpacings = 0.75;  // reach of a point where there is no plane
 constexpr std::size_t kCrowd = 512;      // points of a cell that are looked at for the nearest one
+constexpr float kFarAway = 1e9f;         // mm; fills up what is not there
+constexpr unsigned kRemembered = 16;     // cells
 
 double cell_size(const Sampling& sampling) {
   return std::max({kLeastCell, kCellSpacings * sampling.spacing, kCellSteps * sampling.step});
+}
+
+// Which of the places is nearest, the first of equals. Count is rounded up to fours.
+int nearest_of(const float* x, const float* y, const float* z, int count,
+               const Eigen::Vector3f& to) {
+  typedef float Four __attribute__((vector_size(16)));
+  const auto four = [](const float* from) {
+    Four lanes;
+    std::memcpy(&lanes, from, sizeof lanes);
+    return lanes;
+  };
+  std::array<Four, 7> squared;
+  Four least = Four{} + std::numeric_limits<float>::max();
+  const int fours = (count + 3) / 4;
+  for (int i = 0; i < fours; ++i) {
+    const Four dx = four(x + 4 * i) - to.x(), dy = four(y + 4 * i) - to.y(),
+               dz = four(z + 4 * i) - to.z();
+    squared[i] = dx * dx + dy * dy + dz * dz;
+    least = squared[i] < least ? squared[i] : least;
+  }
+  const float smallest = std::min({least[0], least[1], least[2], least[3]});
+  for (int i = 0; i < fours; ++i)
+    for (int lane = 0; lane < 4; ++lane)
+      if (squared[i][lane] == smallest) return 4 * i + lane;
+  return 0;
 }
 
 }  // namespace
@@ -28,40 +58,81 @@ SurfaceBackground::SurfaceBackground(const ScanCloud& cloud, double distance_mm)
   for (int i = 0; i < grid_.cell_count(); ++i) {
     const auto inside = grid_.points_in(i);
     PlaneSums& cell = sums.emplace_back(cloud.points[inside.front()]);
-    for (const int point : inside) cell.add(cloud.points[point]);
+    Surface& surface = surfaces_.emplace_back();
+    surface.low = surface.high = cloud.points[inside.front()];
+    for (const int point : inside) {
+      cell.add(cloud.points[point]);
+      surface.low = surface.low.cwiseMin(cloud.points[point]);
+      surface.high = surface.high.cwiseMax(cloud.points[point]);
+    }
   }
-  surfaces_.resize(sums.size());
+  const NeighbourGrid::Adjacency adjacency = grid_.adjacency();
   for (int i = 0; i < grid_.cell_count(); ++i) {
     PlaneSums window = sums[i];
-    grid_.for_each_around(grid_.cell(i), [&](int j) {
+    for (const int j : adjacency.of(i))
       if (j != i) window.add(sums[j]);
-    });
+    const PlaneSums::Fit fit = window.fit();
     Surface& surface = surfaces_[i];
-    surface.fit = window.fit();
-    surface.is_plane = window.weight() >= 6 && surface.fit.rms <= distance_ / 2 &&
-                       surface.fit.spread[0] >= kLeastSpread * sampling_.spacing;
+    surface.centroid = fit.centroid;
+    surface.plane = fit.plane;
+    surface.is_plane = window.weight() >= 6 && fit.rms <= distance_ / 2 &&
+                       fit.spread[0] >= kLeastSpread * sampling_.spacing;
   }
 }
 
-bool SurfaceBackground::contains(const Eigen::Vector3d& point) const {
-  const NeighbourGrid::Cell middle = grid_.cell_of(point);
-  const Surface* nearest = nullptr;
-  double least = 0;
+void SurfaceBackground::look_around(const NeighbourGrid::Cell& middle, Surroundings& around) const {
+  around.middle = middle;
+  around.corner = middle.cast<double>() * grid_.cell_size();
+  around.count = 0;
+  around.x.fill(kFarAway), around.y.fill(kFarAway), around.z.fill(kFarAway);
   grid_.for_each_around(middle, [&](int i) {
-    const double squared = (surfaces_[i].fit.centroid - point).squaredNorm();
-    if (nearest == nullptr || squared < least) nearest = &surfaces_[i], least = squared;
+    const Eigen::Vector3f centroid = (surfaces_[i].centroid - around.corner).cast<float>();
+    around.cells[around.count] = i;
+    around.x[around.count] = centroid.x();
+    around.y[around.count] = centroid.y();
+    around.z[around.count] = centroid.z();
+    ++around.count;
   });
-  if (nearest == nullptr) return false;
-  if (nearest->is_plane) return std::abs(nearest->fit.plane.signed_distance(point)) <= distance_;
+}
+
+bool SurfaceBackground::contains(const Eigen::Vector3d& point, const Surroundings& around) const {
+  if (around.count == 0) return false;
+  const Surface& nearest =
+      surfaces_[around.cells[nearest_of(around.x.data(), around.y.data(), around.z.data(),
+                                        around.count, (point - around.corner).cast<float>())]];
+  if (nearest.is_plane) return std::abs(nearest.plane.signed_distance(point)) <= distance_;
   const double reach = std::max(distance_, kRoughSpacings * sampling_.spacing);
-  double to_point = 2 * reach * reach;
-  grid_.for_each_around(middle, [&](int i) {
-    const auto inside = grid_.points_in(i);
+  for (int i = 0; i < around.count; ++i) {
+    const Surface& surface = surfaces_[around.cells[i]];
+    const Eigen::Vector3d to_box =
+        (surface.low - point).cwiseMax(point - surface.high).cwiseMax(0.0);
+    if (to_box.squaredNorm() > reach * reach) continue;
+    const auto inside = grid_.points_in(around.cells[i]);
     const std::size_t step = 1 + inside.size() / kCrowd;
     for (std::size_t j = 0; j < inside.size(); j += step)
-      to_point = std::min(to_point, (grid_.points()[inside[j]] - point).squaredNorm());
-  });
-  return to_point <= reach * reach;
+      if ((grid_.points()[inside[j]] - point).squaredNorm() <= reach * reach) return true;
+  }
+  return false;
+}
+
+bool SurfaceBackground::contains(const Eigen::Vector3d& point) const {
+  Surroundings surroundings;
+  look_around(grid_.cell_of(point), surroundings);
+  return contains(point, surroundings);
+}
+
+// A stripe runs through one cell for many points, or to and fro between two.
+void SurfaceBackground::classify(std::span<const Eigen::Vector3d> points,
+                                 std::vector<char>& inside) const {
+  std::array<Surroundings, kRemembered> remembered;
+  for (Surroundings& one : remembered) one.middle.setConstant(std::numeric_limits<int>::min());
+  for (const Eigen::Vector3d& point : points) {
+    const NeighbourGrid::Cell middle = grid_.cell_of(point);
+    const auto place = static_cast<unsigned>(middle.x() + 2 * middle.y() + 4 * middle.z());
+    Surroundings& around = remembered[place % kRemembered];
+    if (around.middle != middle) look_around(middle, around);
+    inside.push_back(contains(point, around));
+  }
 }
 
 }  // namespace arcstart
