@@ -35,7 +35,7 @@ SceneObject place_tool(const SceneSettings& settings, const std::vector<Footprin
 
 }  // namespace
 
-std::vector<SceneObject> make_clutter(const SceneSettings& settings, const Tee& tee,
+std::vector<SceneObject> make_clutter(const SceneSettings& settings, const Work& work,
                                       std::uint64_t seed) {
   // All is drawn whether it is used or not, so that one setting does not change what another puts
   // there.
@@ -45,26 +45,26 @@ std::vector<SceneObject> make_clutter(const SceneSettings& settings, const Tee& 
   const double on_base_along = random.uniform(0.05, 0.3), on_base_across = random.uniform(0.4, 0.6);
 
   std::vector<SceneObject> objects;
-  const RigidTransform T_work_base = tee.T_base_work.inverse();
+  const RigidTransform T_work_base = work.T_base_work.inverse();
   std::vector<Footprint> taken{
-      footprint(transformed(tee.base_plate.mesh, T_work_base), tee.T_base_work, 0),
-      footprint(transformed(tee.upright_plate.mesh, T_work_base), tee.T_base_work, 0)};
+      footprint(transformed(work.first_plate.mesh, T_work_base), work.T_base_work, 0),
+      footprint(transformed(work.second_plate.mesh, T_work_base), work.T_base_work, 0)};
   if (settings.box_beside) {
     const TriangleMesh box = make_box({-70, -35, 0}, {70, 35, 60});
-    const double back =
-        (tee.upright_mm.y() + tee.base_mm.y()) / 2;  // the base plate's edge behind the upright
-    const double yaw = std::atan2(tee.seam.direction.y(), tee.seam.direction.x()) * 180 / EIGEN_PI;
+    const double yaw =
+        std::atan2(work.seam.direction.y(), work.seam.direction.x()) * 180 / EIGEN_PI;
     RigidTransform pose = RigidTransform::Identity();
     pose.linear() = turn(yaw + box_turn, Eigen::Vector3d::UnitZ());
-    pose.translation() = tee.T_base_work * Eigen::Vector3d(box_along, back + box_gap + 35, 0);
+    pose.translation() =
+        work.T_base_work * Eigen::Vector3d(box_along, work.behind_mm + box_gap + 35, 0);
     pose.translation().z() = settings.work_position_mm[2];
     objects.push_back({"box beside", transformed(box, pose), painted});
     taken.push_back(footprint(box, pose, 0));
   }
   if (settings.box_on_base) {
-    const double open = (tee.base_mm.y() - tee.upright_mm.y()) / 2;  // width of the open side
-    RigidTransform pose = tee.T_base_work;
-    pose.translate(Eigen::Vector3d(on_base_along * tee.base_mm.x(), -on_base_across * open, 0));
+    RigidTransform pose = work.T_base_work;
+    pose.translate(
+        Eigen::Vector3d(on_base_along * work.length_mm, -on_base_across * work.open_mm, 0));
     objects.push_back(
         {"box on base", transformed(make_box({-12, -9, 0}, {12, 9, 15}), pose), painted});
   }

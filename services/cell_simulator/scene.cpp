@@ -54,14 +54,14 @@ Scene::Scene(std::vector<SceneObject> objects, std::optional<SeamTruth> seam)
 Scene make_scene(const SceneSettings& settings, SceneKind kind, std::uint64_t seed) {
   std::vector<SceneObject> objects{make_table(settings, seed)};
   if (kind == SceneKind::background) return Scene(std::move(objects));
-  Tee tee = make_tee(settings, seed);
-  const std::vector<SceneObject> clutter = make_clutter(settings, tee, seed),
+  Work work = make_work(settings, seed);
+  const std::vector<SceneObject> clutter = make_clutter(settings, work, seed),
                                  read = read_stl_files(settings);
-  objects.push_back(std::move(tee.base_plate));
-  objects.push_back(std::move(tee.upright_plate));
+  objects.push_back(std::move(work.first_plate));
+  objects.push_back(std::move(work.second_plate));
   objects.insert(objects.end(), clutter.begin(), clutter.end());
   objects.insert(objects.end(), read.begin(), read.end());
-  return Scene(std::move(objects), tee.seam);
+  return Scene(std::move(objects), work.seam);
 }
 
 }  // namespace arcstart

@@ -31,11 +31,10 @@ struct SceneObject {
 
 // The true seam in base; mm and rad. It runs in the search direction.
 struct SeamTruth {
-  std::string joint_type;  // "tee"
+  std::string joint_type;  // tee, outside_corner, lap, butt, v
   Eigen::Vector3d start, end, direction;
-  std::array<Eigen::Vector3d, 2>
-      normals;   // of base plate and upright plate, unit, out of the metal
-  double angle;  // between the plates' faces on the open side
+  std::array<Eigen::Vector3d, 2> normals;  // of both plates, unit, out of the metal
+  double angle;                            // between the plates' faces on the open side
 };
 
 class Scene {

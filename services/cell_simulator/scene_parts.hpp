@@ -16,19 +16,20 @@ Eigen::Matrix3d turn(double degrees, const Eigen::Vector3d& axis);
 // unevenness.
 SceneObject make_table(const SceneSettings& settings, std::uint64_t seed);
 
-// Two plates. Work frame: x along the seam, the root line through the origin on the base plate's
-// top, open side to -y.
-struct Tee {
-  Eigen::Vector3d base_mm, upright_mm;  // as in the settings, as the seed made them
+// Two plates. Work frame: x along the seam, which runs through the origin; the first plate's top is
+// in z = 0, and the joint's open side looks to -y or, where it has none, up.
+struct Work {
   RigidTransform T_base_work;
-  SceneObject base_plate, upright_plate;
+  SceneObject first_plate, second_plate;
+  double length_mm;           // of the first plate along the seam
+  double open_mm, behind_mm;  // how far they reach to -y and to +y of the seam
   SeamTruth seam;
 };
-Tee make_tee(const SceneSettings& settings, std::uint64_t seed);
+Work make_work(const SceneSettings& settings, std::uint64_t seed);
 
 // The boxes and the tool that the settings ask for, where they touch neither the plates nor each
 // other. Throws SceneError where there is no room.
-std::vector<SceneObject> make_clutter(const SceneSettings& settings, const Tee& tee,
+std::vector<SceneObject> make_clutter(const SceneSettings& settings, const Work& work,
                                       std::uint64_t seed);
 
 }  // namespace arcstart

@@ -20,10 +20,15 @@ struct SceneSettings {
   double tilt_range_deg = 3;      // work tilted about a level axis, at most
   double size_range_share = 0.2;  // plates longer, wider or thicker than below, at most
 
+  // How the plates meet. tee: the upright stands on the base plate. outside_corner: it stands under
+  // the base plate's edge. lap: it lies on the base plate. butt, v: it lies beside it, the edges
+  // cut square or slanting. The base plate is then half as wide, but for the lap.
+  std::string joint = "tee";
   std::array<double, 3> base_plate_mm{110, 110, 10};   // along the seam, across it, thickness
   std::array<double, 3> upright_plate_mm{100, 8, 45};  // along the seam, thickness, height
-  double joint_angle_deg = 90;                         // between the plates' faces on the open side
-  double root_gap_mm = 0;                              // under the upright plate
+  double joint_angle_deg = 90;   // of a tee, between the plates' faces on the open side
+  double root_gap_mm = 0;        // between the plates: under the upright or upper, or at the root
+  double groove_angle_deg = 60;  // of a V, between its two slants
 
   double search_begin_mm =
       -80;  // taught positions, along the search from the middle of the taught work
@@ -53,10 +58,12 @@ struct SceneSettings {
     visitor("yaw_range_deg", yaw_range_deg, between(0, 45));
     visitor("tilt_range_deg", tilt_range_deg, between(0, 20));
     visitor("size_range_share", size_range_share, between(0, 0.5));
+    visitor("joint", joint, one_of({"tee", "outside_corner", "lap", "butt", "v"}));
     visitor("base_plate_mm", base_plate_mm, each_positive);
     visitor("upright_plate_mm", upright_plate_mm, each_positive);
     visitor("joint_angle_deg", joint_angle_deg, between(60, 120));
     visitor("root_gap_mm", root_gap_mm, between(0, 10));
+    visitor("groove_angle_deg", groove_angle_deg, between(20, 120));
     visitor("search_begin_mm", search_begin_mm, between(-500, 500));
     visitor("search_end_mm", search_end_mm, between(-500, 500));
     visitor("table_size_mm", table_size_mm, between(10, 3000));
