@@ -1,39 +1,63 @@
 #include "services/seam_finding/components.hpp"
 
 #include <algorithm>
-
-#include "services/seam_finding/neighbour_grid.hpp"
+#include <numeric>
 
 namespace arcstart {
 
-std::vector<int> largest_component(const std::vector<Eigen::Vector3d>& points, double cell_mm) {
+Pieces::Pieces(const std::vector<Eigen::Vector3d>& points, double cell_mm) {
   const NeighbourGrid grid(points, cell_mm);
-  std::vector<int> piece(grid.cell_count(), -1);  // of each cell
-  std::vector<int> open;
-  int largest = -1, pieces = 0;
-  std::size_t most = 0;
-  for (int start = 0; start < grid.cell_count(); ++start) {
-    if (piece[start] >= 0) continue;
-    std::size_t size = 0;
-    piece[start] = pieces;
-    open.assign(1, start);
-    while (!open.empty()) {
-      const int cell = open.back();
-      open.pop_back();
-      size += grid.points_in(cell).size();
-      grid.for_each_around(grid.cell(cell), [&](int next) {
-        if (piece[next] < 0) piece[next] = pieces, open.push_back(next);
-      });
+  adjacency_ = grid.adjacency();
+  cells_ = grid.cells_of_points();
+  counts_.assign(static_cast<std::size_t>(grid.cell_count()), 0);
+  pieces_.resize(counts_.size());
+}
+
+void Pieces::join(std::span<const int> chosen) {
+  held_.clear();
+  for (const int point : chosen) {
+    const int cell = cells_[point];
+    if (counts_[cell]++ == 0) held_.push_back(cell), pieces_[cell] = -1;
+  }
+  largest_ = -1, size_ = 0;
+  int pieces = 0, lowest_of_largest = 0;
+  for (const int start : held_) {
+    if (pieces_[start] >= 0) continue;
+    int size = 0, lowest = start;
+    pieces_[start] = pieces;
+    open_.assign(1, start);
+    while (!open_.empty()) {
+      const int cell = open_.back();
+      open_.pop_back();
+      size += counts_[cell];
+      lowest = std::min(lowest, cell);
+      for (const int next : adjacency_.of(cell))
+        if (counts_[next] > 0 && pieces_[next] < 0) pieces_[next] = pieces, open_.push_back(next);
     }
-    if (size > most) most = size, largest = pieces;
+    // Of equals the first in the order of cells, whatever the order of the points.
+    if (size > size_ || (size == size_ && lowest < lowest_of_largest))
+      size_ = size, largest_ = pieces, lowest_of_largest = lowest;
     ++pieces;
   }
-  std::vector<int> inside;
-  for (int cell = 0; cell < grid.cell_count(); ++cell)
-    if (piece[cell] == largest)
-      for (const int point : grid.points_in(cell)) inside.push_back(point);
-  std::sort(inside.begin(), inside.end());
-  return inside;
+  for (const int cell : held_) counts_[cell] = 0;
+}
+
+int Pieces::largest_size(std::span<const int> chosen) {
+  join(chosen);
+  return size_;
+}
+
+void Pieces::keep_largest(std::vector<int>& chosen) {
+  join(chosen);
+  if (size_ == static_cast<int>(chosen.size())) return;
+  std::erase_if(chosen, [&](int point) { return pieces_[cells_[point]] != largest_; });
+}
+
+std::vector<int> largest_component(const std::vector<Eigen::Vector3d>& points, double cell_mm) {
+  std::vector<int> chosen(points.size());
+  std::iota(chosen.begin(), chosen.end(), 0);
+  Pieces(points, cell_mm).keep_largest(chosen);
+  return chosen;
 }
 
 }  // namespace arcstart

@@ -8,6 +8,7 @@
 #include "services/seam_finding/components.hpp"
 #include "services/seam_finding/neighbour_grid.hpp"
 #include "services/seam_finding/plane_fit.hpp"
+#include "services/seam_finding/plane_points.hpp"
 
 namespace arcstart {
 namespace {
@@ -37,67 +38,81 @@ std::optional<Plane> plane_through(const Eigen::Vector3d& a, const Eigen::Vector
   return plane;
 }
 
-Plane refit(const std::vector<Eigen::Vector3d>& points, const Plane& plane, double tolerance) {
+// Least squares through what lies near the plane.
+Plane refit(const std::vector<Eigen::Vector3d>& points, const PlanePoints& side_by_side,
+            const Plane& plane, double tolerance) {
+  std::vector<int> near;
+  side_by_side.find_near(plane, tolerance, near);
   PlaneSums sums(points.front());
-  for (const auto& point : points)
-    if (std::abs(plane.signed_distance(point)) <= tolerance) sums.add(point);
+  for (const int i : near) sums.add(points[i]);
   if (sums.weight() < 3) return plane;
   const auto fit = sums.fit();
   if (!(fit.spread[0] > 1e-6)) return plane;
   return fit.plane.normal.dot(plane.normal) < 0 ? fit.plane.flipped() : fit.plane;
 }
 
-// An even sample of the points, in random order, that says how much a hypothesis is worth.
+std::vector<Eigen::Vector3d> every(std::size_t step, std::size_t first,
+                                   const std::vector<Eigen::Vector3d>& points) {
+  std::vector<Eigen::Vector3d> some;
+  some.reserve(points.size() / step + 1);
+  for (std::size_t i = first; i < points.size(); i += step) some.push_back(points[i]);
+  return some;
+}
+
+std::vector<Eigen::Vector3d> shuffled(std::vector<Eigen::Vector3d> points, Dice& dice) {
+  for (std::size_t i = points.size(); i > 1; --i) std::swap(points[i - 1], points[dice.below(i)]);
+  return points;
+}
+
+// Points in random order that say how much a hypothesis is worth.
 class Jury {
  public:
-  Jury(const std::vector<Eigen::Vector3d>& points, const PlaneSearch& search, Dice& dice)
-      : search_(search) {
-    const std::size_t step = std::max<std::size_t>(1, (points.size() + kJury - 1) / kJury);
-    for (std::size_t i = dice.below(step); i < points.size(); i += step)
-      points_.push_back(points[i]);
-    for (std::size_t i = points_.size(); i > 1; --i)
-      std::swap(points_[i - 1], points_[dice.below(i)]);
-    connection_ = search.connection * std::sqrt(static_cast<double>(step));
-  }
+  Jury(std::vector<Eigen::Vector3d> points, const PlaneSearch& search, double connection)
+      : search_(search),
+        points_(std::move(points)),
+        side_by_side_(points_),
+        pieces_(points_, connection) {}
 
   // Points of the largest connected piece on the plane; 0 where it is plain early that they are not
   // more than `most`.
-  int worth(const Plane& plane, int most) const {
-    std::size_t near = 0, i = 0;
-    const auto count_to = [&](std::size_t end) {
-      for (; i < end; ++i) near += std::abs(plane.signed_distance(points_[i])) <= search_.tolerance;
-    };
+  int worth(const Plane& plane, int most) {
     const std::size_t first = std::min(kFirstLook, points_.size());
-    count_to(first);
+    int near = side_by_side_.count_near(plane, search_.tolerance, 0, first);
     const double expected = static_cast<double>(most) * static_cast<double>(first) /
                             static_cast<double>(points_.size());
-    if (static_cast<double>(near) + 3 * std::sqrt(expected) < expected) return 0;
-    count_to(points_.size());
-    if (near <= static_cast<std::size_t>(most)) return 0;
-    std::vector<Eigen::Vector3d> on_it;
-    for (const auto& point : points_)
-      if (std::abs(plane.signed_distance(point)) <= search_.tolerance) on_it.push_back(point);
-    return static_cast<int>(largest_component(on_it, connection_).size());
+    if (near + 3 * std::sqrt(expected) < expected) return 0;
+    near += side_by_side_.count_near(plane, search_.tolerance, first, points_.size());
+    if (near <= most) return 0;
+    side_by_side_.find_near(plane, search_.tolerance, on_it_);
+    return pieces_.largest_size(on_it_);
   }
   // What a face of so many points is worth.
   int share_of(int points, std::size_t all) const {
     return static_cast<int>(static_cast<double>(points) * static_cast<double>(points_.size()) /
                             static_cast<double>(all));
   }
-  Plane better(const Plane& plane) const { return refit(points_, plane, search_.tolerance); }
+  Plane better(const Plane& plane) const {
+    return refit(points_, side_by_side_, plane, search_.tolerance);
+  }
 
  private:
   const PlaneSearch& search_;
   std::vector<Eigen::Vector3d> points_;
-  double connection_;
+  PlanePoints side_by_side_;
+  Pieces pieces_;
+  std::vector<int> on_it_;
 };
 
-// Three points drawn from one neighbourhood lie on one face far more often than three drawn from
-// all.
+// From an even sample of the points. Three points drawn from one neighbourhood lie on one face far
+// more often than three drawn from all.
 std::optional<Plane> best_hypothesis(const std::vector<Eigen::Vector3d>& points,
                                      const PlaneSearch& search, Dice& dice) {
-  const Jury jury(points, search, dice);
-  const NeighbourGrid neighbourhoods(points, search.locality);
+  const std::size_t step = std::max<std::size_t>(1, (points.size() + kJury - 1) / kJury);
+  const std::vector<Eigen::Vector3d> sample = every(step, dice.below(step), points);
+  Jury jury(shuffled(sample, dice), search,
+            search.connection * std::sqrt(static_cast<double>(step)));
+  const NeighbourGrid neighbourhoods(sample, search.locality);
+  const std::vector<int> cells = neighbourhoods.cells_of_points();
   std::optional<Plane> best;
   int most = std::max(2, jury.share_of(search.least_points, points.size()) - 1);
   const auto take = [&](const Plane& plane) {
@@ -109,37 +124,44 @@ std::optional<Plane> best_hypothesis(const std::vector<Eigen::Vector3d>& points,
     return true;
   };
   for (int i = 0; i < search.hypotheses; ++i) {
-    const Eigen::Vector3d& first = points[dice.below(points.size())];
-    const auto around = neighbourhoods.points_in(neighbourhoods.cell_of(first));
-    const Eigen::Vector3d& second = points[around[dice.below(around.size())]];
-    const Eigen::Vector3d& third = points[around[dice.below(around.size())]];
-    const auto plane = plane_through(first, second, third, 4 * search.tolerance);
+    const std::size_t first = dice.below(sample.size());
+    const auto around = neighbourhoods.points_in(cells[first]);
+    const Eigen::Vector3d& second = sample[around[dice.below(around.size())]];
+    const Eigen::Vector3d& third = sample[around[dice.below(around.size())]];
+    const auto plane = plane_through(sample[first], second, third, 4 * search.tolerance);
     if (plane && take(*plane)) take(jury.better(*plane));
   }
   return best;
 }
 
-// The connected piece that a hypothesis stands for, and its own least-squares plane.
-Face grow(const ScanCloud& cloud, const std::vector<int>& indices, Plane plane,
-          const PlaneSearch& search) {
+// The points among which faces are sought, and those of them that are in none yet.
+struct Sought {
+  std::vector<Eigen::Vector3d> points;
+  std::vector<char> segment_ends;  // of each: it is not fitted
+  Pieces pieces;
+  PlanePoints left;
+};
+
+// The connected piece that a hypothesis stands for, and its own least-squares plane. Its points are
+// told by their places among those sought.
+Face grow(Sought& sought, Plane plane, const PlaneSearch& search) {
   Face face;
   for (int pass = 0; pass < kRefits; ++pass) {
-    std::vector<int> near;
-    std::vector<Eigen::Vector3d> points;
-    for (const int i : indices)
-      if (std::abs(plane.signed_distance(cloud.points[i])) <= search.tolerance)
-        near.push_back(i), points.push_back(cloud.points[i]);
-    face = {plane, 0, 0, {}};
-    PlaneSums sums(points.empty() ? Eigen::Vector3d::Zero() : points.front());
-    for (const int position : largest_component(points, search.connection)) {
-      face.points.push_back(near[position]);
-      if (!cloud.origins[near[position]].segment_end) sums.add(points[position]);
-    }
+    face.plane = plane;
+    sought.left.find_near(plane, search.tolerance, face.points);
+    sought.pieces.keep_largest(face.points);
+    PlaneSums sums(face.points.empty() ? Eigen::Vector3d::Zero()
+                                       : sought.points[face.points.front()]);
+    for (const int i : face.points)
+      if (!sought.segment_ends[i]) sums.add(sought.points[i]);
+    face.rms = 0;
     if (sums.weight() < 3) break;
     const auto fit = sums.fit();
     face.rms = fit.rms;
     if (!(fit.spread[0] > 1e-6) || (search.accept && !search.accept(fit.plane))) break;
+    const bool settled = fit.plane.normal == plane.normal && fit.plane.offset == plane.offset;
     plane = fit.plane;
+    if (settled) break;
   }
   return face;
 }
@@ -164,21 +186,31 @@ double spacing_of(const ScanCloud& cloud, const Face& face, double connection) {
 
 std::vector<Face> find_faces(const ScanCloud& cloud, std::vector<int> indices,
                              const PlaneSearch& search, std::uint64_t seed) {
+  std::vector<Eigen::Vector3d> points;
+  std::vector<char> segment_ends;
+  points.reserve(indices.size()), segment_ends.reserve(indices.size());
+  for (const int i : indices) {
+    points.push_back(cloud.points[i]);
+    segment_ends.push_back(cloud.origins[i].segment_end);
+  }
+  Pieces pieces(points, search.connection);
+  PlanePoints side_by_side(points);
+  Sought sought{std::move(points), std::move(segment_ends), std::move(pieces),
+                std::move(side_by_side)};
   std::vector<Face> faces;
+  std::vector<Eigen::Vector3d> inside;
   Dice dice(seed);
   while (static_cast<int>(faces.size()) < search.most_faces) {
-    std::vector<Eigen::Vector3d> inside;
-    for (const int i : indices)
-      if (!cloud.origins[i].segment_end) inside.push_back(cloud.points[i]);
+    inside.clear();
+    for (const int i : sought.left.places())
+      if (!sought.segment_ends[i]) inside.push_back(sought.points[i]);
     if (static_cast<int>(inside.size()) < search.least_points) break;
     const auto hypothesis = best_hypothesis(inside, search, dice);
     if (!hypothesis) break;
-    Face face = grow(cloud, indices, *hypothesis, search);
+    Face face = grow(sought, *hypothesis, search);
     if (static_cast<int>(face.points.size()) < search.least_points) break;
-    std::vector<int> left;
-    std::set_difference(indices.begin(), indices.end(), face.points.begin(), face.points.end(),
-                        std::back_inserter(left));
-    indices = std::move(left);
+    sought.left.remove(face.points);
+    for (int& i : face.points) i = indices[i];
     face.spacing = spacing_of(cloud, face, search.connection);
     faces.push_back(std::move(face));
   }
