@@ -1,0 +1,247 @@
+#include "services/seam_finding/robust_plane.hpp"
+
+#include <Eigen/LU>
+#include <algorithm>
+#include <cmath>
+#include <cstring>
+#include <numeric>
+
+namespace arcstart {
+namespace {
+
+constexpr std::size_t kLeastPoints = 20;
+constexpr double kTukey = 4.685;               // standard deviations
+constexpr double kMedianToDeviation = 1.4826;  // of normal noise
+constexpr std::size_t kStrips = 16;
+constexpr double kStripNoise = 0.25;  // of a strip's mean height, over the points' noise
+constexpr double kStripDeviations = 2.5;
+constexpr double kRoughness = 1.5;  // a plate's spread over the cloud's noise that is no roughness
+constexpr double kLeastSpread = 3;  // of a plate's points within their plane, over their noise
+constexpr double kSettled = 1e-8;   // mm, and mm for each mm: a step that changes nothing any more
+constexpr std::size_t kLanes = 4;
+constexpr std::size_t kBlock = 1024;  // points summed in floats before doubles take over
+
+typedef float Lanes4 __attribute__((vector_size(4 * kLanes)));
+
+Lanes4 load4(const float* from) {
+  Lanes4 lanes;
+  std::memcpy(&lanes, from, sizeof lanes);
+  return lanes;
+}
+
+// Points as heights above a first plane, at places in it: there all numbers are small or need not
+// be exact, so that floats do, side by side.
+class Heights {
+ public:
+  Heights(const std::vector<Eigen::Vector3d>& points, const Line& line, const Plane& first)
+      : normal_(first.normal) {
+    along_ = (line.direction - line.direction.dot(normal_) * normal_).normalized();
+    across_ = normal_.cross(along_);
+    origin_ = line.point - first.signed_distance(line.point) * normal_;
+    const std::size_t padded = (points.size() + kLanes - 1) / kLanes * kLanes;
+    a_.assign(padded, 0), b_.assign(padded, 0), distance_.assign(padded, 0);
+    h_.assign(padded, kFarOff);
+    for (std::size_t i = 0; i < points.size(); ++i) {
+      const Eigen::Vector3d p = points[i] - origin_;
+      a_[i] = static_cast<float>(along_.dot(p));
+      b_[i] = static_cast<float>(across_.dot(p));
+      h_[i] = static_cast<float>(normal_.dot(p));
+      distance_[i] = static_cast<float>(line.distance(points[i]));
+    }
+    count_ = points.size();
+  }
+
+  // height = offset + along * a + across * b: a plane not far from the first.
+  struct Model {
+    double offset = 0, along = 0, across = 0;
+  };
+  Plane plane(const Model& model) const {
+    Plane plane;
+    plane.normal = (normal_ - model.along * along_ - model.across * across_).normalized();
+    plane.offset = -plane.normal.dot(origin_ + model.offset * normal_);
+    return plane;
+  }
+
+  std::size_t size() const { return count_; }
+  float distance(std::size_t i) const { return distance_[i]; }  // from the line
+  double residual(const Model& model, std::size_t i) const {
+    return h_[i] - model.offset - model.along * a_[i] - model.across * b_[i];
+  }
+
+  Model narrowed(Model model, double noise, std::initializer_list<double> limits) const;
+  Heights chosen(const std::vector<int>& points) const;
+
+ private:
+  static constexpr float kFarOff = 1e9f;  // mm: no limit reaches so far
+  struct Sums {                           // weighted; r: residuals
+    double w = 0, a = 0, b = 0, aa = 0, ab = 0, bb = 0, r = 0, ra = 0, rb = 0;
+  };
+  Sums weighted_sums(const Model& model, double reach) const;
+
+  Eigen::Vector3d normal_, along_, across_, origin_;
+  std::size_t count_ = 0;
+  std::vector<float> a_, b_, h_, distance_;  // filled up to whole registers
+};
+
+Heights::Sums Heights::weighted_sums(const Model& model, double reach) const {
+  Sums sums;
+  const auto offset = static_cast<float>(model.offset), along = static_cast<float>(model.along),
+             across = static_cast<float>(model.across), share = static_cast<float>(1 / reach);
+  for (std::size_t first = 0; first < h_.size(); first += kBlock) {
+    Lanes4 w{}, a{}, b{}, aa{}, ab{}, bb{}, r{}, ra{}, rb{};
+    const std::size_t last = std::min(first + kBlock, h_.size());
+    for (std::size_t i = first; i < last; i += kLanes) {
+      const Lanes4 pa = load4(&a_[i]), pb = load4(&b_[i]);
+      const Lanes4 off = load4(&h_[i]) - offset - along * pa - across * pb;
+      const Lanes4 rest = 1 - (off * share) * (off * share);
+      const Lanes4 inside = rest > 0 ? rest : Lanes4{};
+      const Lanes4 weight = inside * inside, counted = inside > 0 ? off : Lanes4{};
+      const Lanes4 wa = weight * pa, wb = weight * pb, wr = weight * counted;
+      w += weight, a += wa, b += wb, r += wr;
+      aa += wa * pa, ab += wa * pb, bb += wb * pb, ra += wr * pa, rb += wr * pb;
+    }
+    const auto total = [](const Lanes4& v) {
+      return static_cast<double>(v[0]) + v[1] + static_cast<double>(v[2]) + v[3];
+    };
+    sums.w += total(w), sums.a += total(a), sums.b += total(b), sums.r += total(r);
+    sums.aa += total(aa), sums.ab += total(ab), sums.bb += total(bb);
+    sums.ra += total(ra), sums.rb += total(rb);
+  }
+  return sums;
+}
+
+// The limit narrows from pass to pass, so that what agrees within the noise prevails over what was
+// drawn aside.
+Heights::Model Heights::narrowed(Model model, double noise,
+                                 std::initializer_list<double> limits) const {
+  double settled_at = 0;
+  for (const double limit : limits) {
+    if (limit == settled_at) continue;
+    const Sums s = weighted_sums(model, limit * kTukey * noise);
+    if (s.w < static_cast<double>(kLeastPoints / 2)) return model;
+    // Of the smaller spread within the plane.
+    const double ma = s.a / s.w, mb = s.b / s.w;
+    const double vaa = s.aa / s.w - ma * ma, vab = s.ab / s.w - ma * mb, vbb = s.bb / s.w - mb * mb;
+    const double least = (vaa + vbb) / 2 - std::hypot((vaa - vbb) / 2, vab);
+    if (!(least > kLeastSpread * noise * kLeastSpread * noise)) return model;
+    Eigen::Matrix3d normal_equations;
+    normal_equations << s.w, s.a, s.b, s.a, s.aa, s.ab, s.b, s.ab, s.bb;
+    const Eigen::Vector3d step = normal_equations.inverse() * Eigen::Vector3d(s.r, s.ra, s.rb);
+    model.offset += step[0], model.along += step[1], model.across += step[2];
+    settled_at = step.cwiseAbs().maxCoeff() < kSettled ? limit : 0;
+  }
+  return model;
+}
+
+Heights Heights::chosen(const std::vector<int>& points) const {
+  Heights some = *this;
+  const std::size_t padded = (points.size() + kLanes - 1) / kLanes * kLanes;
+  some.count_ = points.size();
+  some.a_.assign(padded, 0), some.b_.assign(padded, 0), some.distance_.assign(padded, 0);
+  some.h_.assign(padded, kFarOff);
+  for (std::size_t i = 0; i < points.size(); ++i) {
+    const int j = points[i];
+    some.a_[i] = a_[j], some.b_[i] = b_[j], some.h_[i] = h_[j], some.distance_[i] = distance_[j];
+  }
+  return some;
+}
+
+// Standard deviation of the points from the plane, as their median distance tells it; mm. A plate
+// may be rougher than the cloud is where it is smoothest.
+double spread_about(const Heights& points) {
+  std::vector<float> distances(points.size());
+  for (std::size_t i = 0; i < points.size(); ++i)
+    distances[i] = static_cast<float>(std::abs(points.residual({}, i)));
+  const auto middle = distances.begin() + static_cast<std::ptrdiff_t>(distances.size() / 2);
+  std::nth_element(distances.begin(), middle, distances.end());
+  return kMedianToDeviation * *middle;
+}
+
+// A strip of a plate along the seam.
+struct Strip {
+  std::size_t first = 0, last = 0;  // points
+  double distance = 0, height = 0;  // means; mm
+};
+
+// The points' places in order of their distance from the line, as far as strips of equal numbers
+// need it.
+std::vector<int> order_by_strips(const Heights& points) {
+  std::vector<int> order(points.size());
+  std::iota(order.begin(), order.end(), 0);
+  const auto nearer = [&](int a, int b) {
+    return points.distance(static_cast<std::size_t>(a)) <
+           points.distance(static_cast<std::size_t>(b));
+  };
+  const auto border = [&](std::size_t strip) {
+    return order.begin() + static_cast<std::ptrdiff_t>(order.size() * strip / kStrips);
+  };
+  for (std::size_t width = kStrips; width > 1; width /= 2)
+    for (std::size_t k = 0; k < kStrips; k += width)
+      if (border(k + width / 2) != border(k + width))
+        std::nth_element(border(k), border(k + width / 2), border(k + width), nearer);
+  return order;
+}
+
+// The points in strips of which most lie on one line, seen along the seam. The stripe's reflection
+// from the other plate shifts its centre by a tenth of a millimetre over wide strips of a plate:
+// far less than single points scatter, so that only their means tell.
+std::vector<int> in_line(const Heights& points, const Heights::Model& model, double noise) {
+  const std::vector<int> order = order_by_strips(points);
+  std::vector<Strip> strips(kStrips);
+  for (std::size_t k = 0; k < kStrips; ++k) {
+    Strip& strip = strips[k];
+    strip.first = order.size() * k / kStrips;
+    strip.last = order.size() * (k + 1) / kStrips;
+    double weight = 0;
+    for (std::size_t i = strip.first; i < strip.last; ++i) {
+      const auto point = static_cast<std::size_t>(order[i]);
+      const double height = points.residual(model, point);
+      if (std::abs(height) > kTukey * noise) continue;
+      strip.distance += points.distance(point), strip.height += height, ++weight;
+    }
+    if (weight == 0) return order;
+    strip.distance /= weight, strip.height /= weight;
+  }
+  const double agree =
+      noise *
+      std::max(kStripNoise, kStripDeviations * std::sqrt(static_cast<double>(kStrips) /
+                                                         static_cast<double>(points.size())));
+  std::vector<std::size_t> most;
+  double best_off = 0;
+  for (std::size_t a = 0; a < kStrips; ++a)
+    for (std::size_t b = a + kStrips / 4; b < kStrips; ++b) {
+      const double slope = (strips[b].height - strips[a].height) /
+                           std::max(1e-6, strips[b].distance - strips[a].distance);
+      std::vector<std::size_t> on_it;
+      double off = 0;
+      for (std::size_t k = 0; k < kStrips; ++k) {
+        const double residual = std::abs(strips[k].height - strips[a].height -
+                                         slope * (strips[k].distance - strips[a].distance));
+        if (residual <= agree) on_it.push_back(k), off += residual;
+      }
+      if (on_it.size() > most.size() || (on_it.size() == most.size() && off < best_off))
+        most = on_it, best_off = off;
+    }
+  if (2 * most.size() < kStrips) return order;
+  std::vector<int> kept;
+  for (const std::size_t k : most)
+    kept.insert(kept.end(), order.begin() + static_cast<std::ptrdiff_t>(strips[k].first),
+                order.begin() + static_cast<std::ptrdiff_t>(strips[k].last));
+  return kept;
+}
+
+}  // namespace
+
+Plane robust_plane(const std::vector<Eigen::Vector3d>& points, const Line& line, const Plane& plane,
+                   double noise) {
+  if (points.size() < kLeastPoints) return plane;
+  const Heights heights(points, line, plane);
+  const double allowed = std::max(noise, spread_about(heights) / kRoughness);
+  Heights::Model model =
+      heights.narrowed({}, allowed, {4.0, 4.0, 2.0, 2.0, 1.0, 1.0, 0.6, 0.6, 0.6, 0.6});
+  model = heights.chosen(in_line(heights, model, allowed))
+              .narrowed(model, allowed, {1.0, 1.0, 0.6, 0.6, 0.6, 0.6});
+  return heights.plane(model);
+}
+
+}  // namespace arcstart
