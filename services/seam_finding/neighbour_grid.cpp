@@ -170,17 +170,22 @@ std::span<const int> NeighbourGrid::points_in(const Cell& cell) const {
 
 void NeighbourGrid::nearest_distances(int point, int k, std::vector<double>& distances) const {
   distances.clear();
+  const auto most = static_cast<std::size_t>(k);
   const Eigen::Vector3d& centre = points_[point];
   for_each_around(cell_of(centre), [&](int cell) {
     const auto inside = points_in(cell);
     const std::size_t step = 1 + inside.size() / kCrowd;
-    for (std::size_t i = 0; i < inside.size(); i += step)
-      if (inside[i] != point) distances.push_back((points_[inside[i]] - centre).squaredNorm());
+    for (std::size_t i = 0; i < inside.size(); i += step) {
+      const double squared = (points_[inside[i]] - centre).squaredNorm();
+      if (inside[i] == point || (distances.size() == most && !(squared < distances.back())))
+        continue;
+      if (distances.size() < most) distances.push_back(squared);
+      std::size_t place = distances.size() - 1;
+      for (; place > 0 && distances[place - 1] > squared; --place)
+        distances[place] = distances[place - 1];
+      distances[place] = squared;
+    }
   });
-  const std::size_t kept = std::min(distances.size(), static_cast<std::size_t>(k));
-  std::partial_sort(distances.begin(), distances.begin() + static_cast<std::ptrdiff_t>(kept),
-                    distances.end());
-  distances.resize(kept);
   for (double& distance : distances) distance = std::sqrt(distance);
 }
 

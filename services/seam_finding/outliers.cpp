@@ -6,28 +6,64 @@
 #include "services/seam_finding/neighbour_grid.hpp"
 
 namespace arcstart {
+namespace {
+
+constexpr std::size_t kAskedAll = 4096;  // so many points all tell what is usual
+constexpr std::size_t kAsked = 1024;     // of more so many, evenly taken
+
+double mean_of(const std::vector<double>& values) {
+  return std::accumulate(values.begin(), values.end(), 0.0) / static_cast<double>(values.size());
+}
+
+// A bound from above on a point's mean distance to its nearest neighbours: to as many that stand
+// about it in the list, which follows the stripes. They must lie within `reach`, where all
+// neighbours are sought. Infinite for none.
+double bound_of(const std::vector<Eigen::Vector3d>& points, std::size_t i, std::size_t neighbours,
+                double reach) {
+  const std::size_t before = neighbours / 2, after = neighbours - before;
+  if (i < before || i + after >= points.size()) return INFINITY;
+  double sum = 0;
+  for (std::size_t j = i - before; j <= i + after; ++j) {
+    const double squared = (points[j] - points[i]).squaredNorm();
+    if (squared > reach * reach) return INFINITY;
+    sum += std::sqrt(squared);
+  }
+  return sum / static_cast<double>(neighbours);
+}
+
+}  // namespace
 
 std::vector<int> without_outliers(const ScanCloud& cloud, const std::vector<int>& points,
                                   int neighbours, double deviations, double spacing) {
   std::vector<Eigen::Vector3d> positions;
+  positions.reserve(points.size());
   for (const int i : points) positions.push_back(cloud.points[i]);
   const NeighbourGrid grid(positions, std::max(1e-3, 1.5 * spacing));
-  std::vector<double> means(points.size(), -1), distances;
+  std::vector<double> distances;
+  const std::size_t step = points.size() <= kAskedAll ? 1 : points.size() / kAsked;
   double sum = 0, squares = 0;
   int counted = 0;
-  for (std::size_t i = 0; i < points.size(); ++i) {
+  for (std::size_t i = 0; i < points.size(); i += step) {
     grid.nearest_distances(static_cast<int>(i), neighbours, distances);
     if (distances.empty()) continue;
-    means[i] = std::accumulate(distances.begin(), distances.end(), 0.0) /
-               static_cast<double>(distances.size());
-    sum += means[i], squares += means[i] * means[i], ++counted;
+    const double mean = mean_of(distances);
+    sum += mean, squares += mean * mean, ++counted;
   }
   if (counted < 2) return points;
-  const double mean = sum / counted;
-  const double deviation = std::sqrt(std::max(0.0, (squares - sum * mean) / (counted - 1)));
+  const double usual = sum / counted;
+  const double deviation = std::sqrt(std::max(0.0, (squares - sum * usual) / (counted - 1)));
+  const double limit = usual + deviations * deviation;
   std::vector<int> kept;
-  for (std::size_t i = 0; i < points.size(); ++i)
-    if (means[i] >= 0 && means[i] <= mean + deviations * deviation) kept.push_back(points[i]);
+  kept.reserve(points.size());
+  for (std::size_t i = 0; i < points.size(); ++i) {
+    bool keep =
+        bound_of(positions, i, static_cast<std::size_t>(neighbours), grid.cell_size()) <= limit;
+    if (!keep) {
+      grid.nearest_distances(static_cast<int>(i), neighbours, distances);
+      keep = !distances.empty() && mean_of(distances) <= limit;
+    }
+    if (keep) kept.push_back(points[i]);
+  }
   return kept;
 }
 
