@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <span>
 
 #include "services/seam_finding/joints.hpp"
 #include "services/seam_finding/plane_fit.hpp"
@@ -18,7 +19,8 @@ constexpr double kShortestSeam = 10;    // mm: less of it seen on both plates is
 constexpr double kStationSpacings = 3;  // between stations of a cloud without stripes
 constexpr double kStraight = 0.5;       // mm
 constexpr int kAlternatives = 6;
-constexpr int kMissingInARow = 3;    // stripes before the start
+constexpr int kMissingInARow = 3;              // stripes before the start
+constexpr std::size_t kMostBackground = 8192;  // points; of more so many are looked at
 constexpr double kContinues = 0.25;  // share of a face's points that lie in its plane as background
 
 CourseSearch course_search(const Scales& scales) {
@@ -51,14 +53,15 @@ bool continues_background(const ScanCloud& scan, const std::vector<int>& backgro
     low = low.cwiseMin(scan.points[i]), high = high.cwiseMax(scan.points[i]);
   const double around = 4 * scales.connection;
   PlaneSums in_plane(low);
-  for (const int i : background) {
-    const Eigen::Vector3d& p = scan.points[i];
-    if ((p - low).minCoeff() > -around && (high - p).minCoeff() > -around &&
-        std::abs(face.plane.signed_distance(p)) <= scales.tolerance)
+  const std::size_t every = 1 + background.size() / kMostBackground;
+  for (std::size_t i = 0; i < background.size(); i += every) {
+    const Eigen::Vector3d& p = scan.points[background[i]];
+    if (std::abs(face.plane.signed_distance(p)) <= scales.tolerance &&
+        (p - low).minCoeff() > -around && (high - p).minCoeff() > -around)
       in_plane.add(p);
   }
   // Where the plane only cuts through the background they lie on a narrow strip.
-  return in_plane.weight() >=
+  return in_plane.weight() * static_cast<double>(every) >=
              std::max(10.0, kContinues * static_cast<double>(face.points.size())) &&
          in_plane.fit().spread[0] > 3 * scales.tolerance;
 }
@@ -166,8 +169,25 @@ void answer(SeamResult& result, const ScanCloud& scan, const Joint& joint, const
 
 }  // namespace
 
+void divide(const ScanCloud& scan, const Background& background, Division& division) {
+  const int first = division.size();
+  const auto rest = std::span(scan.points).subspan(static_cast<std::size_t>(first));
+  std::vector<char> inside;
+  inside.reserve(rest.size());
+  background.classify(rest, inside);
+  for (std::size_t i = 0; i < inside.size(); ++i)
+    (inside[i] ? division.background : division.left).push_back(first + static_cast<int>(i));
+}
+
 SeamResult find_seam(const ScanCloud& scan, const Background& background,
                      const SeamFindingSettings& settings, std::uint64_t seed) {
+  Division division;
+  divide(scan, background, division);
+  return find_seam(scan, std::move(division), settings, seed);
+}
+
+SeamResult find_seam(const ScanCloud& scan, Division division, const SeamFindingSettings& settings,
+                     std::uint64_t seed) {
   SeamResult result;
   const Sampling sampling = measure_sampling(scan);
   if (!(sampling.spacing > 1e-3))
@@ -175,12 +195,8 @@ SeamResult find_seam(const ScanCloud& scan, const Background& background,
   if (scan.organised() && !search_direction(scan))
     return refuse(result, "the tool did not move in the scan");
   const Scales scales = scales_of(scan, sampling, settings.plane_tolerance_mm);
-
-  std::vector<int> left;
-  std::vector<char> is_background;
-  is_background.reserve(scan.points.size());
-  background.classify(scan.points, is_background);
-  for (int i = 0; i < scan.size(); ++i) (is_background[i] ? result.background : left).push_back(i);
+  result.background = std::move(division.background);
+  const std::vector<int>& left = division.left;
 
   const PlaneSearch plane = plane_search(scales, settings);
   const JointSearch joint = joint_search(scan, scales, settings);

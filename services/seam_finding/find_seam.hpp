@@ -47,10 +47,21 @@ struct SeamResult {
   std::vector<int> background;  // indices of the points taken for background
 };
 
+// A cloud's points by whether they are background, indices, rising.
+struct Division {
+  std::vector<int> background, left;
+  int size() const { return static_cast<int>(background.size() + left.size()); }
+};
+// Goes on behind the last point that is divided already: a scan can be divided stripe by stripe.
+void divide(const ScanCloud& scan, const Background& background, Division& division);
+
 // The whole way: background, planes, joints, refit beside the seam, start. Refuses with a reason
 // when in doubt. The result depends on nothing but the arguments; seed: the scan's id.
 SeamResult find_seam(const ScanCloud& scan, const Background& background,
                      const SeamFindingSettings& settings, std::uint64_t seed);
+// The same of a scan that is divided.
+SeamResult find_seam(const ScanCloud& scan, Division division, const SeamFindingSettings& settings,
+                     std::uint64_t seed);
 
 // Takes nothing for background.
 class NoBackground : public Background {

@@ -169,10 +169,17 @@ std::span<const int> NeighbourGrid::points_in(const Cell& cell) const {
 }
 
 void NeighbourGrid::nearest_distances(int point, int k, std::vector<double>& distances) const {
+  std::vector<int> around;
+  for_each_around(cell_of(points_[point]), [&](int cell) { around.push_back(cell); });
+  nearest_distances(point, k, around, distances);
+}
+
+void NeighbourGrid::nearest_distances(int point, int k, std::span<const int> around,
+                                      std::vector<double>& distances) const {
   distances.clear();
   const auto most = static_cast<std::size_t>(k);
   const Eigen::Vector3d& centre = points_[point];
-  for_each_around(cell_of(centre), [&](int cell) {
+  for (const int cell : around) {
     const auto inside = points_in(cell);
     const std::size_t step = 1 + inside.size() / kCrowd;
     for (std::size_t i = 0; i < inside.size(); i += step) {
@@ -185,7 +192,7 @@ void NeighbourGrid::nearest_distances(int point, int k, std::vector<double>& dis
         distances[place] = distances[place - 1];
       distances[place] = squared;
     }
-  });
+  }
   for (double& distance : distances) distance = std::sqrt(distance);
 }
 

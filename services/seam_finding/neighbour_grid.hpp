@@ -50,8 +50,10 @@ class NeighbourGrid {
   std::vector<int> cells_of_points() const;
 
   // Distances to the k nearest other points within the cells around, rising; fewer where there are
-  // fewer. Of a crowded cell only 256 points are looked at, evenly taken.
+  // fewer. Of a crowded cell only 256 points are looked at, evenly taken. around: those cells.
   void nearest_distances(int point, int k, std::vector<double>& distances) const;
+  void nearest_distances(int point, int k, std::span<const int> around,
+                         std::vector<double>& distances) const;
 
   double cell_size() const { return cell_mm_; }
   const std::vector<Eigen::Vector3d>& points() const { return points_; }

@@ -39,12 +39,17 @@ std::vector<int> without_outliers(const ScanCloud& cloud, const std::vector<int>
   positions.reserve(points.size());
   for (const int i : points) positions.push_back(cloud.points[i]);
   const NeighbourGrid grid(positions, std::max(1e-3, 1.5 * spacing));
+  const NeighbourGrid::Adjacency adjacency = grid.adjacency();
+  const std::vector<int> cells = grid.cells_of_points();
   std::vector<double> distances;
+  const auto ask = [&](std::size_t i) {
+    grid.nearest_distances(static_cast<int>(i), neighbours, adjacency.of(cells[i]), distances);
+  };
   const std::size_t step = points.size() <= kAskedAll ? 1 : points.size() / kAsked;
   double sum = 0, squares = 0;
   int counted = 0;
   for (std::size_t i = 0; i < points.size(); i += step) {
-    grid.nearest_distances(static_cast<int>(i), neighbours, distances);
+    ask(i);
     if (distances.empty()) continue;
     const double mean = mean_of(distances);
     sum += mean, squares += mean * mean, ++counted;
@@ -59,7 +64,7 @@ std::vector<int> without_outliers(const ScanCloud& cloud, const std::vector<int>
     bool keep =
         bound_of(positions, i, static_cast<std::size_t>(neighbours), grid.cell_size()) <= limit;
     if (!keep) {
-      grid.nearest_distances(static_cast<int>(i), neighbours, distances);
+      ask(i);
       keep = !distances.empty() && mean_of(distances) <= limit;
     }
     if (keep) kept.push_back(points[i]);

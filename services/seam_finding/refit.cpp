@@ -12,6 +12,8 @@ namespace {
 
 constexpr int kPasses = 2;
 constexpr int kLeastPoints = 20;
+constexpr std::size_t kSoughtAgain =
+    4096;  // of more points the outliers are sought in one pass alone
 // The stripe's centre is drawn aside so near the other plate; mm.
 constexpr double kBendWidth = 1.2;
 constexpr double kOverhang = 3;  // beyond the seam's ends; mm
@@ -41,17 +43,29 @@ double outlier_spacing(const ScanCloud& cloud, const std::vector<int>& points, d
   return std::min(spacing, 2 * std::sqrt(area / static_cast<double>(points.size())));
 }
 
+// Both rising.
+std::vector<int> difference(const std::vector<int>& points, const std::vector<int>& without) {
+  std::vector<int> left;
+  left.reserve(points.size());
+  std::set_difference(points.begin(), points.end(), without.begin(), without.end(),
+                      std::back_inserter(left));
+  return left;
+}
+
 }  // namespace
 
 void refit_joint(const ScanCloud& cloud, Joint& joint, const Refit& refit,
                  const CourseSearch& search) {
+  std::array<std::vector<int>, 2> outliers;
   for (int pass = 0; pass < kPasses; ++pass) {
     std::array<Plane, 2> planes = {joint.plates[0].plane, joint.plates[1].plane};
     for (int plate = 0; plate < 2; ++plate) {
       auto chosen = beside(cloud, joint, plate, refit);
-      if (refit.neighbours > 0)
-        chosen = without_outliers(cloud, chosen, refit.neighbours, refit.deviations,
-                                  outlier_spacing(cloud, chosen, search.spacing));
+      if (refit.neighbours > 0 && (pass == 0 || chosen.size() <= kSoughtAgain))
+        outliers[plate] =
+            difference(chosen, without_outliers(cloud, chosen, refit.neighbours, refit.deviations,
+                                                outlier_spacing(cloud, chosen, search.spacing)));
+      chosen = difference(chosen, outliers[plate]);
       if (static_cast<int>(chosen.size()) < kLeastPoints)
         continue;  // the face's own plane is better
       std::vector<Eigen::Vector3d> points;

@@ -1,7 +1,6 @@
 #include "services/seam_finding/scales.hpp"
 
 #include <algorithm>
-#include <vector>
 
 namespace arcstart {
 namespace {
@@ -12,20 +11,6 @@ constexpr double kMostTolerance = 6;     // mm
 constexpr double kNoiseTolerance = 4;    // tolerance over noise
 constexpr double kPitches = 1.3;         // contact over the points' distance along a stripe
 
-// Median distance between neighbours along a stripe, as down-sampling left them; 0 where there are
-// none.
-double pitch_along_stripes(const ScanCloud& cloud) {
-  std::vector<double> distances;
-  for (int i = 1; i < cloud.size(); ++i)
-    if (cloud.origins[i].stripe >= 0 && cloud.origins[i].stripe == cloud.origins[i - 1].stripe &&
-        cloud.origins[i].segment == cloud.origins[i - 1].segment)
-      distances.push_back((cloud.points[i] - cloud.points[i - 1]).norm());
-  if (distances.empty()) return 0;
-  const auto middle = distances.begin() + static_cast<std::ptrdiff_t>(distances.size() / 2);
-  std::nth_element(distances.begin(), middle, distances.end());
-  return *middle;
-}
-
 }  // namespace
 
 Scales scales_of(const ScanCloud& cloud, const Sampling& sampling, double tolerance_mm) {
@@ -35,12 +20,12 @@ Scales scales_of(const ScanCloud& cloud, const Sampling& sampling, double tolera
   scales.tolerance = tolerance_mm > 0 ? tolerance_mm
                                       : std::clamp(kNoiseTolerance * sampling.noise,
                                                    kLeastTolerance, kMostTolerance);
-  const double pitch = pitch_along_stripes(cloud);
-  scales.connection = std::max(
-      4.0, cloud.organised() ? 2 * std::max(sampling.spacing, pitch) : 4 * sampling.spacing);
+  scales.connection =
+      std::max(4.0, cloud.organised() ? 2 * std::max(sampling.spacing, sampling.pitch)
+                                      : 4 * sampling.spacing);
   // A stripe that crosses the seam has a point within one pitch of it on either plate.
-  scales.contact = std::max(
-      {6.0, 3 * scales.tolerance, cloud.organised() ? kPitches * pitch : 4 * sampling.spacing});
+  scales.contact = std::max({6.0, 3 * scales.tolerance,
+                             cloud.organised() ? kPitches * sampling.pitch : 4 * sampling.spacing});
   return scales;
 }
 

@@ -12,6 +12,7 @@ namespace {
 constexpr double kLeastMotion = 5;  // mm
 constexpr int kSamples = 400;       // places where the cloud is measured
 constexpr int kNeighbours = 8;
+constexpr int kMostSteps = 8192, kMostNeighbours = 32768;  // of a larger cloud so many points serve
 constexpr std::size_t kCrowd = 64;  // points of a cell that are looked at for the noise
 
 double percentile(std::vector<double>& values, double share) {
@@ -36,13 +37,15 @@ double stripe_spacing(const ScanCloud& cloud) {
   return percentile(steps, 0.5);
 }
 
-double stripe_step(const ScanCloud& cloud) {
+// Between neighbours along a stripe, evenly taken where there are many.
+std::vector<double> stripe_steps(const ScanCloud& cloud) {
   std::vector<double> steps;
-  for (int i = 1; i < cloud.size(); ++i)
+  const int every = 1 + cloud.size() / kMostSteps;
+  for (int i = 1; i < cloud.size(); i += every)
     if (cloud.origins[i].stripe == cloud.origins[i - 1].stripe &&
         cloud.origins[i].segment == cloud.origins[i - 1].segment)
       steps.push_back((cloud.points[i] - cloud.points[i - 1]).norm());
-  return percentile(steps, 0.9);
+  return steps;
 }
 
 // Median distance to the eighth neighbour over that of a square grid of spacing 1.
@@ -69,18 +72,22 @@ double point_spacing(const ScanCloud& cloud) {
 // raise it in places, so the lower third speaks for the flat ones.
 double surface_noise(const ScanCloud& cloud, double radius) {
   if (!(radius > 0)) return 0;
-  const NeighbourGrid grid(cloud.points, radius);
+  std::vector<Eigen::Vector3d> points;
+  const int every = 1 + cloud.size() / kMostNeighbours;
+  points.reserve(static_cast<std::size_t>(cloud.size() / every + 1));
+  for (int i = 0; i < cloud.size(); i += every) points.push_back(cloud.points[i]);
+  const NeighbourGrid grid(points, radius);
   std::vector<double> found;
-  const int step = std::max(1, cloud.size() / kSamples);
-  for (int i = 0; i < cloud.size(); i += step) {
-    const Eigen::Vector3d& centre = cloud.points[i];
+  for (std::size_t i = 0; i < points.size();
+       i += std::max<std::size_t>(1, points.size() / kSamples)) {
+    const Eigen::Vector3d& centre = points[i];
     PlaneSums sums(centre);
     grid.for_each_around(grid.cell_of(centre), [&](int cell) {
       const auto inside = grid.points_in(cell);
       const std::size_t stride = 1 + inside.size() / kCrowd;
       for (std::size_t j = 0; j < inside.size(); j += stride)
-        if ((cloud.points[inside[j]] - centre).squaredNorm() < radius * radius)
-          sums.add(cloud.points[inside[j]]);
+        if ((points[inside[j]] - centre).squaredNorm() < radius * radius)
+          sums.add(points[inside[j]]);
     });
     if (sums.weight() < 8) continue;
     const auto fit = sums.fit();
@@ -129,7 +136,11 @@ Sampling measure_sampling(const ScanCloud& cloud) {
   Sampling sampling;
   if (cloud.points.size() < 16) return sampling;
   sampling.spacing = cloud.organised() ? stripe_spacing(cloud) : point_spacing(cloud);
-  if (cloud.organised()) sampling.step = stripe_step(cloud);
+  if (cloud.organised()) {
+    std::vector<double> steps = stripe_steps(cloud);
+    sampling.step = percentile(steps, 0.9);
+    sampling.pitch = percentile(steps, 0.5);
+  }
   sampling.noise = surface_noise(cloud, 3 * sampling.spacing);
   return sampling;
 }

@@ -69,6 +69,7 @@ struct Sampling {
       0;  // between stripes while the tool moves, in an unorganised cloud between points; mm
   double step = 0;   // between points along a stripe, where it is wide (the ninth tenth); 0 without
                      // stripes; mm
+  double pitch = 0;  // the same, the median; mm
   double noise = 0;  // standard deviation of the points across their surface; mm
 };
 
