@@ -21,8 +21,8 @@ struct SceneSettings {
   double size_range_share = 0.2;  // plates longer, wider or thicker than below, at most
 
   // How the plates meet. tee: the upright stands on the base plate. outside_corner: it stands under
-  // the base plate's edge. lap: it lies on the base plate. butt, v: it lies beside it, the edges
-  // cut square or slanting. The base plate is then half as wide, but for the lap.
+  // the base plate's edge, both mitred. lap: it lies on the base plate. butt, v: it lies beside it,
+  // the edges cut square or slanting. The base plate is then half as wide, but for the lap.
   std::string joint = "tee";
   std::array<double, 3> base_plate_mm{110, 110, 10};   // along the seam, across it, thickness
   std::array<double, 3> upright_plate_mm{100, 8, 45};  // along the seam, thickness, height

@@ -53,17 +53,19 @@ PlatePair make_tee(const SceneSettings& settings, const Sizes& sizes) {
           settings.joint_angle_deg};
 }
 
-// The second plate stands under the edge of the first; its face and the first plate's cut are one.
+// The second plate stands under the edge of the first; where they meet both are cut at 45 deg.
 PlatePair make_outside_corner(const SceneSettings& settings, const Sizes& sizes) {
-  const double top = -sizes.base_mm.z() - settings.root_gap_mm;
-  return {"top plate",
-          "upright plate",
-          make_box({-sizes.base_mm.x() / 2, 0, -sizes.base_mm.z()},
-                   {sizes.base_mm.x() / 2, sizes.base_mm.y() / 2, 0}),
-          make_box({-sizes.second_mm.x() / 2, 0, top - sizes.second_mm.z()},
-                   {sizes.second_mm.x() / 2, sizes.second_mm.y(), top}),
-          {Eigen::Vector3d::UnitZ(), -Eigen::Vector3d::UnitY()},
-          270};
+  const double width = sizes.base_mm.y() / 2, thickness = sizes.base_mm.z();
+  const double gap = settings.root_gap_mm, wall = sizes.second_mm.y(),
+               foot = -gap - sizes.second_mm.z();
+  return {
+      "top plate",
+      "upright plate",
+      make_bar({{0, 0}, {thickness, -thickness}, {width, -thickness}, {width, 0}},
+               sizes.base_mm.x() / 2),
+      make_bar({{0, -gap}, {0, foot}, {wall, foot}, {wall, -gap - wall}}, sizes.second_mm.x() / 2),
+      {Eigen::Vector3d::UnitZ(), -Eigen::Vector3d::UnitY()},
+      270};
 }
 
 // The second plate lies on the first.

@@ -12,6 +12,9 @@ namespace {
 constexpr double kDegree = M_PI / 180;
 constexpr double kBeside = 25;     // a joint is judged by what lies so near the line; mm
 constexpr double kFullReach = 10;  // a plate that reaches so far from the seam counts in full; mm
+// Outside a corner a plate reaches so far, else it is the cut of the other; mm, as three quarters
+// of its points beside the seam are nearer.
+constexpr double kLeastOutsideReach = 17;
 constexpr double kLeastConcave = 0.8;
 constexpr double kLeastExplained = 0.5;
 constexpr double kNoComponent = 0.05;  // of a unit direction that only noise gives a sign
@@ -54,8 +57,8 @@ std::vector<int> with_pieces_of_the_plane(const ScanCloud& cloud, const std::vec
   return without_scraps(cloud, points);
 }
 
-// Of a plate's points beside the seam: the share before the other plate, and how far they reach
-// from the line.
+// Of a plate's points beside the seam: the share on the right side of the other plate, and how far
+// they reach from the line.
 struct Beside {
   double before = 0;  // of what touches the line; 0..1
   double reach = 0;   // three quarters of the points are nearer; mm
@@ -70,7 +73,8 @@ Beside look_beside(const ScanCloud& cloud, const Joint& joint, int plate, double
     distances.push_back(r);
     // What lies farther behind may be the plate going on beyond the other's thickness.
     if (r > joint.plates[plate].contact) continue;
-    const double side = joint.plates[1 - plate].plane.signed_distance(point);
+    const double side = (joint.type == JointType::kOutsideCorner ? -1 : 1) *
+                        joint.plates[1 - plate].plane.signed_distance(point);
     before += side > tolerance;
     behind += side < -tolerance;
   }
@@ -112,14 +116,18 @@ void judge(const ScanCloud& cloud, const std::vector<int>& left, Joint& joint,
   const Beside second = look_beside(cloud, joint, 1, search.tolerance);
   joint.concavity = std::min(first.before, second.before);
   joint.explained = explained_share(cloud, left, joint, search.tolerance);
-  const double off = (joint.angle - search.angle) / search.angle_tolerance;
+  const bool outside = joint.type == JointType::kOutsideCorner;
+  const double angle = plates_angle(joint);
+  const double off = (angle - search.angle) / search.angle_tolerance;
   joint.score = course.covered * joint.explained * joint.explained * joint.concavity *
                 joint.concavity * std::min(1.0, first.reach / kFullReach) *
                 std::min(1.0, second.reach / kFullReach) * std::max(0.0, 1 - off * off / 2);
   if (std::abs(off) > 1)
-    joint.flaw = fmt::format("its angle is {:.1f} deg", joint.angle / kDegree);
+    joint.flaw = fmt::format("its angle is {:.1f} deg", angle / kDegree);
   else if (joint.concavity < kLeastConcave)
-    joint.flaw = "its edge is not concave";
+    joint.flaw = outside ? "its edge is not convex" : "its edge is not concave";
+  else if (outside && std::min(first.reach, second.reach) < kLeastOutsideReach)
+    joint.flaw = "it is the edge of one plate";
   else if (joint.explained < kLeastExplained)
     joint.flaw = "too much else lies around it";
   else if (cloud.organised() && course.stripes < search.stripes_min)
@@ -154,6 +162,7 @@ std::optional<Joint> pair_up(const ScanCloud& cloud, const std::vector<int>& lef
       !touches(cloud, faces[b].points, *line, contact_of(faces[b], search)))
     return std::nullopt;
   Joint joint;
+  joint.type = search.type;
   joint.faces = {a, b};
   joint.line = *line;
   joint.line.direction = along_search(cloud, line->direction);
@@ -163,7 +172,9 @@ std::optional<Joint> pair_up(const ScanCloud& cloud, const std::vector<int>& lef
     joint.plates[j].points = with_pieces_of_the_plane(cloud, faces, joint.faces[j], *line, search);
   }
   const auto measure = [&](Joint& j) {
-    j.angle = M_PI - angle_between(j.plates[0].plane.normal, j.plates[1].plane.normal);
+    j.angle = open_angle(j);
+    if (j.type == JointType::kOutsideCorner)
+      for (int k = 0; k < 2; ++k) j.plates[k].away = -j.plates[1 - k].plane.normal;
     judge(cloud, left, j, search);
   };
   const int doubtful = certain[a] == certain[b] ? -1 : certain[a] ? 1 : 0;
@@ -180,6 +191,11 @@ std::optional<Joint> pair_up(const ScanCloud& cloud, const std::vector<int>& lef
 }
 
 }  // namespace
+
+double open_angle(const Joint& joint) {
+  const double fold = angle_between(joint.plates[0].plane.normal, joint.plates[1].plane.normal);
+  return joint.type == JointType::kOutsideCorner ? M_PI + fold : M_PI - fold;
+}
 
 std::vector<bool> turn_to_sensor(const ScanCloud& cloud, std::vector<Face>& faces) {
   std::vector<bool> certain;

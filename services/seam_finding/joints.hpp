@@ -1,33 +1,37 @@
-// Every pair of faces that may be a joint, ranked: angle (Eq. 6), concavity, contact along the
-// line.
+// Every pair of faces that cross and may be a joint, ranked: angle (Eq. 6), concavity or, outside
+// a corner, convexity, and contact along the line.
 #pragma once
 
 #include <array>
+#include <cmath>
 #include <string>
 #include <vector>
 
 #include "services/seam_finding/course.hpp"
+#include "services/seam_finding/joint_type.hpp"
 #include "services/seam_finding/planes.hpp"
 
 namespace arcstart {
 
 struct JointSearch {
-  double angle = 1.5708;          // theta of Eq. 6; rad
-  double angle_tolerance = 0.35;  // epsilon of Eq. 6; rad
-  double contact = 6;             // a plate is at the seam where its points come so near; mm
-  double tolerance = 0.5;         // of a point's distance from its plane; mm
+  JointType type = JointType::kTee;  // that or a corner
+  double angle = 1.5708;             // theta of Eq. 6, between the plates; rad
+  double angle_tolerance = 0.35;     // epsilon of Eq. 6; rad
+  double contact = 6;                // a plate is at the seam where its points come so near; mm
+  double tolerance = 0.5;            // of a point's distance from its plane; mm
   int stripes_min = 5;
   double length_min = 15;  // of the seam where both plates were seen; mm
   CourseSearch course;
 };
 
 struct Joint {
+  JointType type = JointType::kTee;
   std::array<int, 2> faces{};  // indices
   std::array<JointPlate, 2> plates;
   Line line;             // along the search direction
   double angle = 0;      // between the open sides; rad
   double concavity = 0;  // share of each plate's points beside the line that lie before the other
-                         // plate, the smaller
+                         // plate, outside a corner behind it, the smaller
   double score = 0;      // mm of seam, less for what is not as it should be
   Course course;
   double explained = 0;  // share of all points beside the line that lie on the two plates' planes
@@ -36,6 +40,15 @@ struct Joint {
   Eigen::Vector3d start() const { return line.at(course.begin); }
   Eigen::Vector3d end() const { return line.at(course.end); }
 };
+
+// From the planes' normals, of a joint whose plates cross; rad.
+double open_angle(const Joint& joint);
+
+// Between the plates, on the side of the joint's open angle or, outside a corner, of the metal;
+// rad.
+inline double plates_angle(const Joint& joint) {
+  return joint.type == JointType::kOutsideCorner ? 2 * M_PI - joint.angle : joint.angle;
+}
 
 // Turns the planes' normals to the side they were seen from. Returns for each whether that is
 // certain: it is not where a viewpoint that is only assumed, or is the same for all of a cloud,

@@ -79,7 +79,7 @@ void refit_joint(const ScanCloud& cloud, Joint& joint, const Refit& refit,
     joint.plates[1].plane = planes[1];
     const bool along = line->direction.dot(joint.line.direction) > 0;
     joint.line = {line->point, along ? line->direction : Eigen::Vector3d(-line->direction)};
-    joint.angle = M_PI - angle_between(planes[0].normal, planes[1].normal);
+    joint.angle = open_angle(joint);
     joint.course = find_course(cloud, joint.plates, joint.line, search);
     if (joint.course.stripes == 0) return;
   }

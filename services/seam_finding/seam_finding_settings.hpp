@@ -23,9 +23,25 @@ struct SeamFindingSettings {
   int plane_points_min = 30;  // a plane of fewer points is none
   double plane_tolerance_mm =
       0;  // a point on a plane lies no farther from it; 0: from the cloud's own noise
-  double angle_deg = 90;            // theta of Eq. 6: between the plates
-  double angle_tolerance_deg = 20;  // epsilon of Eq. 6
-  double refit_distance_mm = 60;    // plates are fitted again to what lies so near the seam
+
+  // Joint wanted. `tee`: a fillet. `corner`: the same between two edges, seen from inside; its
+  // points do not tell the two apart. `outside_corner`: seen from outside; its points do not tell
+  // it from the edge of a box, so that there must be none. `lap`, `butt`, `v` (groove). `any`: tee,
+  // lap, butt or v.
+  std::string joint_type = "tee";
+  double angle_deg = 90;            // theta of Eq. 6 between the plates of a tee or corner ...
+  double angle_tolerance_deg = 20;  // ... and its epsilon
+  double outside_corner_angle_deg = 90;
+  double outside_corner_tolerance_deg = 30;
+  double parallel_tolerance_deg = 4;  // epsilon of lap, butt and v, whose theta is 0
+  double lap_thickness_min_mm = 1.5;  // of the upper plate; a smaller step is taken for none
+  double lap_thickness_max_mm = 20;
+  double butt_gap_max_mm = 4;
+  double v_angle_deg = 60;  // between the two slants
+  double v_angle_tolerance_deg = 35;
+  double v_width_max_mm = 30;  // of the groove at its top
+
+  double refit_distance_mm = 60;  // plates are fitted again to what lies so near the seam
   int outlier_neighbours =
       10;  // statistical outlier removal before that fit; 0: none. Never before the ends
   double outlier_deviations =
@@ -66,8 +82,19 @@ struct SeamFindingSettings {
     visitor("planes_max", planes_max, between(2, 64));
     visitor("plane_points_min", plane_points_min, between(10, 100000));
     visitor("plane_tolerance_mm", plane_tolerance_mm, between(0, 20));
+    visitor("joint_type", joint_type,
+            one_of({"any", "tee", "corner", "outside_corner", "lap", "butt", "v"}));
     visitor("angle_deg", angle_deg, between(30, 150));
     visitor("angle_tolerance_deg", angle_tolerance_deg, between(1, 45));
+    visitor("outside_corner_angle_deg", outside_corner_angle_deg, between(30, 150));
+    visitor("outside_corner_tolerance_deg", outside_corner_tolerance_deg, between(1, 60));
+    visitor("parallel_tolerance_deg", parallel_tolerance_deg, between(0.5, 20));
+    visitor("lap_thickness_min_mm", lap_thickness_min_mm, between(0.2, 100));
+    visitor("lap_thickness_max_mm", lap_thickness_max_mm, between(0.2, 100));
+    visitor("butt_gap_max_mm", butt_gap_max_mm, between(0.2, 20));
+    visitor("v_angle_deg", v_angle_deg, between(20, 150));
+    visitor("v_angle_tolerance_deg", v_angle_tolerance_deg, between(1, 60));
+    visitor("v_width_max_mm", v_width_max_mm, between(1, 100));
     visitor("refit_distance_mm", refit_distance_mm, between(5, 500));
     visitor("outlier_neighbours", outlier_neighbours, between(0, 100));
     visitor("outlier_deviations", outlier_deviations, between(0.5, 20));

@@ -181,7 +181,8 @@ Stations piece_stations(const ScanCloud& cloud, const std::array<JointPlate, 2>&
 
 Eigen::Vector3d away_from_seam(const JointPlate& plate, const JointPlate& other) {
   const Eigen::Vector3d& n = plate.plane.normal;
-  return (other.plane.normal - other.plane.normal.dot(n) * n).normalized();
+  const Eigen::Vector3d& toward = plate.away.isZero() ? other.plane.normal : plate.away;
+  return (toward - toward.dot(n) * n).normalized();
 }
 
 std::vector<int> without_scraps(const ScanCloud& cloud, const std::vector<int>& points) {

@@ -14,6 +14,9 @@ struct JointPlate {
   Plane plane;              // normal out of the metal, toward the sensor
   double contact = 6;       // a point so near the seam's line stands for the plate there; mm
   std::vector<int> points;  // indices into the cloud, rising
+  // In the plate, away from the seam; zero: toward the side that the other plate faces, as where
+  // the two form a hollow.
+  Eigen::Vector3d away = Eigen::Vector3d::Zero();
 };
 
 // The points but for pieces of a stripe that are so short that chance may lay them on a plate:
@@ -26,7 +29,7 @@ struct CourseSearch {
   double bridge = 20;      // a seam goes on behind an interruption no longer than this; mm
 };
 
-// In a plate, away from the seam: toward the side that the other plate faces. Unit.
+// In a plate, away from the seam. Unit.
 Eigen::Vector3d away_from_seam(const JointPlate& plate, const JointPlate& other);
 
 // A stripe that crosses the line, or without stripes a piece of the line.

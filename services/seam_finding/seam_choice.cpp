@@ -1,0 +1,148 @@
+#include "services/seam_finding/seam_choice.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <iterator>
+#include <tuple>
+
+#include "services/seam_finding/joints.hpp"
+#include "services/seam_finding/refit.hpp"
+#include "services/seam_finding/seam_answer.hpp"
+
+namespace arcstart {
+namespace {
+
+constexpr double kDegree = M_PI / 180;
+constexpr double kShortestSeam = 10;  // mm: less of it seen on both plates is no seam
+constexpr int kAlternatives = 6;
+constexpr int kMissingInARow = 3;  // stripes before the start
+
+SeamResult::Alternative as_alternative(const Joint& joint, std::string reason) {
+  return {name_of(joint.type), joint.score, joint.start(), joint.end(), std::move(reason)};
+}
+
+// theta and epsilon of Eq. 6; rad.
+std::pair<double, double> angle_wanted(JointType type, const SeamFindingSettings& settings) {
+  if (type == JointType::kOutsideCorner)
+    return {settings.outside_corner_angle_deg * kDegree,
+            settings.outside_corner_tolerance_deg * kDegree};
+  return {settings.angle_deg * kDegree, settings.angle_tolerance_deg * kDegree};
+}
+
+JointSearch joint_search(const ScanCloud& cloud, const Scales& scales,
+                         const SeamFindingSettings& settings, JointType type) {
+  JointSearch search;
+  search.type = type;
+  std::tie(search.angle, search.angle_tolerance) = angle_wanted(type, settings);
+  search.tolerance = scales.tolerance;
+  search.stripes_min = settings.stripes_min;
+  search.length_min =
+      cloud.organised() ? kShortestSeam : std::max(20.0, settings.stripes_min * scales.spacing);
+  search.contact = scales.contact;
+  search.course = course_search(scales);
+  return search;
+}
+
+std::vector<Joint> joints_between(const ScanCloud& scan, const std::vector<int>& left,
+                                  std::vector<Face> faces, const Scales& scales,
+                                  const SeamFindingSettings& settings) {
+  const auto certain = turn_to_sensor(scan, faces);
+  std::vector<Joint> joints;
+  for (const JointType type : wanted_types(settings.joint_type)) {
+    auto found =
+        rank_joints(scan, left, faces, certain, joint_search(scan, scales, settings, type));
+    std::move(found.begin(), found.end(), std::back_inserter(joints));
+  }
+  return joints;
+}
+
+// One entry a seam, best first; those that may be one are measured again beside it.
+std::vector<Joint> distinct_seams(const ScanCloud& scan, std::vector<Joint> joints,
+                                  const Scales& scales, const SeamFindingSettings& settings) {
+  std::vector<Joint> seams;
+  for (Joint& candidate : joints) {
+    if (candidate.course.stripes == 0 && !seams.empty())
+      continue;  // planes that only point at each other
+    if (std::any_of(seams.begin(), seams.end(),
+                    [&](const Joint& seam) { return same_seam(seam, candidate, scales.contact); }))
+      continue;
+    if (candidate.flaw.empty() && !is_flat(candidate.type))
+      refit_joint(scan, candidate,
+                  {settings.refit_distance_mm, settings.outlier_neighbours,
+                   settings.outlier_deviations, scales.noise, scales.tolerance},
+                  course_search(scales));
+    seams.push_back(std::move(candidate));
+    if (static_cast<int>(seams.size()) == kAlternatives) break;
+  }
+  return seams;
+}
+
+// What speaks against the best one, empty where nothing does.
+std::string doubt_about(const Joint& best, const SeamFindingSettings& settings) {
+  const Course& course = best.course;
+  if (!best.flaw.empty()) return "no joint: of the best pair of planes " + best.flaw;
+  if (course.stripes < settings.stripes_min)
+    return fmt::format("only {} stripes show both plates at the seam", course.stripes);
+  const double angle = plates_angle(best);
+  const auto [wanted, tolerance] = angle_wanted(best.type, settings);
+  if (!is_flat(best.type) && std::abs(angle - wanted) > tolerance)
+    return fmt::format("no joint: beside the seam the plates' angle is {:.1f} deg",
+                       angle / kDegree);
+  if (course.begins_outside)
+    return "the seam's start was not seen: both plates are there where the scan begins";
+  if (course.missing_before >= kMissingInARow)
+    return fmt::format("the seam's start was not seen: {} stripes before it are missing",
+                       course.missing_before);
+  return "";
+}
+
+void refuse(SeamResult& result, std::string reason) {
+  result.verdict = SeamResult::Verdict::kRefused;
+  result.reason = std::move(reason);
+}
+
+}  // namespace
+
+void choose_seam(SeamResult& result, const ScanCloud& scan, const std::vector<int>& left,
+                 std::vector<Face> faces, const Scales& scales,
+                 const SeamFindingSettings& settings) {
+  const std::size_t planes = faces.size();
+  auto joints = joints_between(scan, left, std::move(faces), scales, settings);
+  if (joints.empty()) {
+    refuse(result, planes == 1 ? std::string("one plane only: a joint needs two")
+                               : fmt::format("no joint: of {} planes no two meet under the angle "
+                                             "wanted",
+                                             planes));
+    return;
+  }
+  const std::vector<Joint> seams = distinct_seams(scan, std::move(joints), scales, settings);
+  const Joint& best = seams.front();
+  int rivals = 0;
+  for (std::size_t i = 1; i < seams.size(); ++i) {
+    const bool rival = best.flaw.empty() && seams[i].flaw.empty() &&
+                       seams[i].score * settings.ambiguity_ratio >= best.score;
+    rivals += rival;
+    result.alternatives.push_back(as_alternative(seams[i], !seams[i].flaw.empty() ? seams[i].flaw
+                                                           : rival
+                                                               ? "its score is too near the best"
+                                                               : "its score is lower"));
+  }
+  const std::string doubt = doubt_about(best, settings);
+  if (!doubt.empty() || rivals > 0)
+    result.alternatives.insert(
+        result.alternatives.begin(),
+        as_alternative(best, !doubt.empty() ? doubt : "another's score is too near"));
+  if (!doubt.empty()) {
+    refuse(result, doubt);
+  } else if (rivals > 0) {
+    result.verdict = SeamResult::Verdict::kAmbiguous;
+    result.reason = fmt::format("{} seams with scores within a factor of {}", rivals + 1,
+                                settings.ambiguity_ratio);
+  } else {
+    answer(result, scan, best, scales, settings);
+  }
+}
+
+}  // namespace arcstart

@@ -1,0 +1,19 @@
+// Which of the faces make the wanted joint, and whether one of them may be answered.
+#pragma once
+
+#include <vector>
+
+#include "services/seam_finding/find_seam.hpp"
+#include "services/seam_finding/scales.hpp"
+
+namespace arcstart {
+
+// The joints of the wanted types between the faces, best first; the best is measured again beside
+// its seam and answered, unless something speaks against it or another comes too near. Fills in the
+// verdict with its reason, the alternatives and, where found, the seam. `left`: the points that are
+// not background.
+void choose_seam(SeamResult& result, const ScanCloud& scan, const std::vector<int>& left,
+                 std::vector<Face> faces, const Scales& scales,
+                 const SeamFindingSettings& settings);
+
+}  // namespace arcstart
