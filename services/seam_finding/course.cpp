@@ -85,8 +85,11 @@ double end_beyond(const std::vector<Station>& stations, int from, int step, int&
 
 Course find_course(const ScanCloud& cloud, const std::array<JointPlate, 2>& plates,
                    const Line& line, const CourseSearch& search) {
+  return find_course(stations_along(cloud, plates, line, search), search);
+}
+
+Course find_course(const Stations& stations, const CourseSearch& search) {
   Course course;
-  const Stations stations = stations_along(cloud, plates, line, search);
   const auto found = stretches(stations, search.spacing);
   if (found.empty()) return course;
   const Stretch whole = longest(found, stations.list, search);

@@ -24,6 +24,7 @@ struct Course {
 // one that does not. stripes is 0 where there is none.
 Course find_course(const ScanCloud& cloud, const std::array<JointPlate, 2>& plates,
                    const Line& line, const CourseSearch& search);
+Course find_course(const Stations& stations, const CourseSearch& search);
 
 // The paper's way: where along the line the centroid of the first `count` points of both plates
 // lies, from the course's begin on; mm.

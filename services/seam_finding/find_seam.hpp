@@ -26,7 +26,8 @@ struct SeamResult {
   Eigen::Vector3d direction = Eigen::Vector3d::Zero();  // unit, along the search
   std::array<Eigen::Vector3d, 2> normals = {Eigen::Vector3d::Zero(),
                                             Eigen::Vector3d::Zero()};  // out of the metal
-  double angle = 0;  // between the plates' open sides
+  double angle = 0;  // between the plates' open sides; of a groove, between its slants
+  double gap = -1, gap_deviation = -1;  // mean along the seam; of a groove, its width at the top
   EndVisibility start_visibility = EndVisibility::kNotDetermined;
   EndVisibility end_visibility = EndVisibility::kNotDetermined;
   std::optional<SeamAccuracy> accuracy;  // nothing where it was not determined

@@ -220,11 +220,15 @@ std::vector<Joint> rank_joints(const ScanCloud& cloud, const std::vector<int>& l
     for (int b = a + 1; b < static_cast<int>(faces.size()); ++b)
       if (auto joint = pair_up(cloud, left, faces, a, b, certain, search))
         joints.push_back(std::move(*joint));
+  sort_by_score(joints);
+  return joints;
+}
+
+void sort_by_score(std::vector<Joint>& joints) {
   std::stable_sort(joints.begin(), joints.end(), [](const Joint& a, const Joint& b) {
     if (a.flaw.empty() != b.flaw.empty()) return a.flaw.empty();
     return a.score > b.score;
   });
-  return joints;
 }
 
 bool same_seam(const Joint& a, const Joint& b, double tolerance_mm) {

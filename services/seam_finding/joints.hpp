@@ -4,9 +4,11 @@
 
 #include <array>
 #include <cmath>
+#include <optional>
 #include <string>
 #include <vector>
 
+#include "services/seam_finding/border_fit.hpp"
 #include "services/seam_finding/course.hpp"
 #include "services/seam_finding/joint_type.hpp"
 #include "services/seam_finding/planes.hpp"
@@ -24,6 +26,23 @@ struct JointSearch {
   CourseSearch course;
 };
 
+// Of a joint whose plates lie in one plane or in parallel ones.
+struct FlatSeam {
+  // Where each plate ends toward the other, along the seam's direction: of a lap the lower plate as
+  // far as it was seen, and the upper one's lower edge.
+  std::array<Line, 2> borders;
+  BorderFit seam;            // how well the seam is known across, along its line; mm
+  int lower = 0;             // of a lap: which plate
+  double step = 0;           // and the upper plate's top over the lower one's; mm
+  bool foot_hidden = false;  // of the step: nothing of the upper plate's cut was seen
+  double half_angle = 0;     // of a groove's slant from the plates' normal; rad
+  struct Gap {
+    double along = 0, width = 0;  // on the seam's line; mm
+  };
+  std::vector<Gap> gaps;     // of a butt joint the gap, of a groove its width at the top
+  double gap_deviation = 0;  // standard, of each; mm
+};
+
 struct Joint {
   JointType type = JointType::kTee;
   std::array<int, 2> faces{};  // indices
@@ -35,7 +54,8 @@ struct Joint {
   double score = 0;      // mm of seam, less for what is not as it should be
   Course course;
   double explained = 0;  // share of all points beside the line that lie on the two plates' planes
-  std::string flaw;      // why it is no joint, empty where it may be one
+  std::optional<FlatSeam> flat;
+  std::string flaw;  // why it is no joint, empty where it may be one
 
   Eigen::Vector3d start() const { return line.at(course.begin); }
   Eigen::Vector3d end() const { return line.at(course.end); }
@@ -60,6 +80,9 @@ std::vector<bool> turn_to_sensor(const ScanCloud& cloud, std::vector<Face>& face
 std::vector<Joint> rank_joints(const ScanCloud& cloud, const std::vector<int>& left,
                                const std::vector<Face>& faces, const std::vector<bool>& certain,
                                const JointSearch& search);
+
+// Best first; those with a flaw behind those without.
+void sort_by_score(std::vector<Joint>& joints);
 
 // The same seam, found on two pieces of a plate.
 bool same_seam(const Joint& a, const Joint& b, double tolerance_mm);

@@ -4,6 +4,10 @@
 
 #include <cmath>
 
+#include "services/seam_finding/flat_ends.hpp"
+#include "services/seam_finding/flat_joints.hpp"
+#include "services/seam_finding/flat_survey.hpp"
+
 namespace arcstart {
 namespace {
 
@@ -27,30 +31,86 @@ std::string in_words(const SeamEnd& end, const std::string& which) {
                      which);
 }
 
+std::array<PlaneAccuracy, 2> plane_accuracies(const ScanCloud& scan, const Joint& joint,
+                                              const Scales& scales,
+                                              const SeamFindingSettings& settings) {
+  std::array<PlaneAccuracy, 2> accuracies;
+  for (int j = 0; j < 2; ++j)
+    accuracies[j] = plane_accuracy(scan, joint.plates[j], joint.plates[1 - j], joint.line,
+                                   settings.refit_distance_mm, scales.spacing);
+  return accuracies;
+}
+
+std::array<SeamEnd, 2> ends_of(const ScanCloud& scan, const Joint& joint, const Scales& scales,
+                               const SeamFindingSettings& settings) {
+  const EndSearch search{scales.tolerance, settings.edge_shortening_px};
+  std::array<SeamEnd, 2> ends;
+  if (joint.flat) {
+    const auto stations = stations_by_border(scan, joint, course_search(scales));
+    for (const SeamSide side : {SeamSide::kBegin, SeamSide::kEnd})
+      ends[side == SeamSide::kEnd] = find_flat_end(scan, joint, stations, side, search);
+    return ends;
+  }
+  const Stations stations = stations_along(scan, joint.plates, joint.line, course_search(scales));
+  for (const SeamSide side : {SeamSide::kBegin, SeamSide::kEnd})
+    ends[side == SeamSide::kEnd] =
+        find_end(scan, joint.plates, joint.line, joint.course, stations, side, search);
+  return ends;
+}
+
+std::vector<SurveyPlace> survey_of(const ScanCloud& scan, const Joint& joint, double start,
+                                   double end, const Scales& scales) {
+  if (!joint.flat) return survey_seam(scan, joint.plates, joint.line, start, end, scales.spacing);
+  const auto stations = stations_by_border(scan, joint, course_search(scales));
+  return survey_flat(scan, joint, stations_of_both(stations), start, end, scales.spacing);
+}
+
 // Where it starts and ends, and how sure that is.
 void set_ends(SeamResult& result, const ScanCloud& scan, const Joint& joint, const Scales& scales,
               const SeamFindingSettings& settings) {
-  const EndSearch search{scales.tolerance, settings.edge_shortening_px};
-  const Stations stations = stations_along(scan, joint.plates, joint.line, course_search(scales));
-  SeamEnd start =
-      find_end(scan, joint.plates, joint.line, joint.course, stations, SeamSide::kBegin, search);
-  const SeamEnd end =
-      find_end(scan, joint.plates, joint.line, joint.course, stations, SeamSide::kEnd, search);
+  auto [start, end] = ends_of(scan, joint, scales, settings);
   if (settings.start_rule == "stripe") start.along = joint.course.begin;
-  if (settings.start_rule == "centroid")
+  if (settings.start_rule == "centroid" && !joint.flat)
     start.along =
         centroid_of_first(scan, joint.plates, joint.line, joint.course, settings.start_points);
   result.start = joint.line.at(start.along);
   result.end = joint.line.at(end.along);
   result.start_visibility = start.visibility;
   result.end_visibility = end.visibility;
-  std::array<PlaneAccuracy, 2> accuracies;
-  for (int j = 0; j < 2; ++j)
-    accuracies[j] = plane_accuracy(scan, joint.plates[j], joint.plates[1 - j], joint.line,
-                                   settings.refit_distance_mm, scales.spacing);
+  const auto accuracies = plane_accuracies(scan, joint, scales, settings);
   if (settings.start_rule == "edges")
-    result.accuracy = seam_accuracy(joint.plates, joint.line, accuracies, start, end);
+    result.accuracy = joint.flat ? flat_accuracy(joint, accuracies, start, end)
+                                 : seam_accuracy(joint.plates, joint.line, accuracies, start, end);
   if (scan.organised()) result.remark += in_words(start, "start") + in_words(end, "end");
+}
+
+// Mean over the stations, and its deviation: of the mean, not of a single station.
+void set_gap(SeamResult& result) {
+  double sum = 0, count = 0, deviation = 0;
+  for (const SurveyPlace& place : result.stations)
+    if (place.gap >= 0) sum += place.gap, deviation += place.gap_deviation, ++count;
+  if (count == 0) return;
+  result.gap = sum / count;
+  result.gap_deviation = deviation / count;
+}
+
+// The faces between which the torch stands. Between parallel plates they are thought: of a lap the
+// upper one's cut, of the others a right angle about their normal.
+std::array<Eigen::Vector3d, 2> torch_faces(const Joint& joint) {
+  const Eigen::Vector3d& normal = joint.plates[0].plane.normal;
+  if (!joint.flat) return {normal, joint.plates[1].plane.normal};
+  const Eigen::Vector3d across = normal.cross(joint.line.direction).normalized();
+  if (joint.type == JointType::kLap) return {normal, joint.plates[joint.flat->lower].away};
+  return {(normal + across).normalized(), (normal - across).normalized()};
+}
+
+std::string flat_in_words(const Joint& joint) {
+  if (joint.type == JointType::kLap)
+    return fmt::format("the upper plate is {:.1f} mm thick; ", joint.flat->step);
+  if (joint.type == JointType::kV)
+    return fmt::format("the groove opens by {:.0f} deg, its gap is given at the top; ",
+                       joint.angle / kDegree);
+  return "";
 }
 
 }  // namespace
@@ -79,15 +139,18 @@ void answer(SeamResult& result, const ScanCloud& scan, const Joint& joint, const
     result.remark +=
         fmt::format("{} stripes right behind the end are missing; ", joint.course.missing_after);
   set_ends(result, scan, joint, scales, settings);
-  const double start = joint.line.along(result.start);
-  result.stations = survey_seam(scan, joint.plates, joint.line, start, joint.line.along(result.end),
-                                scales.spacing);
+  const double start = joint.line.along(result.start), end = joint.line.along(result.end);
+  result.stations = survey_of(scan, joint, start, end, scales);
+  set_gap(result);
   result.course = polyline_through(result.stations, result.start, result.end, kStraight);
   for (SurveyPlace& place : result.stations) place.along -= start;
-  result.torch = torch_at(result.start, result.direction, result.normals,
-                          {settings.torch_work_angle_deg * kDegree,
+  const bool one_plane = joint.type == JointType::kButt || joint.type == JointType::kV;
+  result.torch = torch_at(result.start, result.direction, torch_faces(joint),
+                          {one_plane ? 0 : settings.torch_work_angle_deg * kDegree,
                            settings.torch_travel_angle_deg * kDegree, settings.approach_mm});
-  result.remark += "not determined: systematic deviations, gap";
+  if (joint.flat) result.remark += flat_in_words(joint);
+  result.remark += "not determined: systematic deviations";
+  if (result.gap < 0) result.remark += ", gap";
 }
 
 }  // namespace arcstart

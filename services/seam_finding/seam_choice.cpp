@@ -7,6 +7,7 @@
 #include <iterator>
 #include <tuple>
 
+#include "services/seam_finding/flat_joints.hpp"
 #include "services/seam_finding/joints.hpp"
 #include "services/seam_finding/refit.hpp"
 #include "services/seam_finding/seam_answer.hpp"
@@ -17,6 +18,7 @@ namespace {
 constexpr double kDegree = M_PI / 180;
 constexpr double kShortestSeam = 10;  // mm: less of it seen on both plates is no seam
 constexpr int kAlternatives = 6;
+constexpr double kAround = 3;      // of a joint between parallel plates; mm
 constexpr int kMissingInARow = 3;  // stripes before the start
 
 SeamResult::Alternative as_alternative(const Joint& joint, std::string reason) {
@@ -45,16 +47,56 @@ JointSearch joint_search(const ScanCloud& cloud, const Scales& scales,
   return search;
 }
 
+FlatSearch flat_search(const SeamFindingSettings& settings) {
+  FlatSearch search;
+  search.parallel = settings.parallel_tolerance_deg * kDegree;
+  search.step_min = settings.lap_thickness_min_mm;
+  search.step_max = settings.lap_thickness_max_mm;
+  search.gap_max = settings.butt_gap_max_mm;
+  search.half_angle_min = (settings.v_angle_deg - settings.v_angle_tolerance_deg) / 2 * kDegree;
+  search.half_angle_max = (settings.v_angle_deg + settings.v_angle_tolerance_deg) / 2 * kDegree;
+  search.width_max = settings.v_width_max_mm;
+  search.stripes_min = settings.stripes_min;
+  search.length_min = kShortestSeam;
+  return search;
+}
+
+// A lap's cut and its lower plate form a tee, and so do the slants of a groove: what they cross at
+// belongs to the joint around it.
+bool is_part_of(const Joint& crossing, const Joint& flat) {
+  if (!flat.flaw.empty() || 2 * flat.course.covered < crossing.course.covered) return false;
+  const FlatSeam& seam = *flat.flat;
+  const double width = seam.borders[0].distance(seam.borders[1].point);
+  return same_seam(flat, crossing, kAround + 1.5 * (width + seam.step));
+}
+
+// Best first; those with a flaw behind those without.
+void join_flat_ones(std::vector<Joint>& joints, std::vector<Joint> flat) {
+  std::erase_if(joints, [&](const Joint& crossing) {
+    return std::any_of(flat.begin(), flat.end(),
+                       [&](const Joint& joint) { return is_part_of(crossing, joint); });
+  });
+  std::move(flat.begin(), flat.end(), std::back_inserter(joints));
+  sort_by_score(joints);
+}
+
 std::vector<Joint> joints_between(const ScanCloud& scan, const std::vector<int>& left,
                                   std::vector<Face> faces, const Scales& scales,
                                   const SeamFindingSettings& settings) {
   const auto certain = turn_to_sensor(scan, faces);
   std::vector<Joint> joints;
+  FlatSearch flat = flat_search(settings);
   for (const JointType type : wanted_types(settings.joint_type)) {
+    flat.lap |= type == JointType::kLap;
+    flat.butt |= type == JointType::kButt;
+    flat.v |= type == JointType::kV;
+    if (is_flat(type)) continue;
     auto found =
         rank_joints(scan, left, faces, certain, joint_search(scan, scales, settings, type));
     std::move(found.begin(), found.end(), std::back_inserter(joints));
   }
+  if (flat.lap || flat.butt || flat.v)
+    join_flat_ones(joints, find_flat_joints(scan, faces, flat, scales));
   return joints;
 }
 

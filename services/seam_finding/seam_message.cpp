@@ -71,6 +71,8 @@ void fill_in(seam_t& seam, const SeamResult& result) {
   copy(result.normals[0], seam.normals[0]);
   copy(result.normals[1], seam.normals[1]);
   seam.angle = result.angle;
+  seam.gap = result.gap;
+  seam.gap_deviation = result.gap_deviation;
   seam.start_visibility = visibility_of(result.start_visibility);
   seam.end_visibility = visibility_of(result.end_visibility);
   for (const Eigen::Vector3d& point : result.course.points)
@@ -81,7 +83,8 @@ void fill_in(seam_t& seam, const SeamResult& result) {
     seam_station_t station{};
     station.distance = place.along;
     copy(place.position, station.position);
-    station.gap = station.gap_deviation = -1;
+    station.gap = place.gap;
+    station.gap_deviation = place.gap_deviation;
     station.residual = place.residual;
     station.tack = place.tack;
     seam.stations.push_back(station);

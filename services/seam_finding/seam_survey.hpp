@@ -13,6 +13,7 @@ struct SurveyPlace {
   Eigen::Vector3d position;  // of the seam there, in base; mm
   double residual = -1;      // from the line; mm, -1 where a plate was not seen beside the seam
   bool tack = false;         // metal stands before both plates there
+  double gap = -1, gap_deviation = -1;  // between the plates; mm, -1 where not measured
 };
 
 // A place for every stripe that crosses the seam between begin and end, in their order; without

@@ -1,0 +1,161 @@
+#include "services/seam_finding/flat_ends.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <utility>
+#include <vector>
+
+namespace arcstart {
+namespace {
+
+constexpr double kSameEdge = 2.5;  // standard deviations of their difference
+constexpr double kMargin = 0.5;    // of an edge about the stripes that enclose it; mm
+constexpr double kFloor = 0.02;    // of the seam across, whatever the number of its places; mm
+constexpr double kBridge = 20;     // mm
+constexpr int kSteps = 200;
+
+// Between which stripes a plate ends, counted outward; mm.
+struct Enclosed {
+  double inner = 0, outer = 0;
+};
+
+// From a place within the seam outward.
+std::optional<Enclosed> enclose(const Stations& stations, int plate, double within,
+                                double outward) {
+  std::vector<std::pair<double, bool>> places;  // and whether the plate is there
+  for (const Station& station : stations.list)
+    if (station.known && outward * (station.along - within) >= 0)
+      places.emplace_back(outward * station.along, station.nearest[plate] <= stations.near[plate]);
+  std::sort(places.begin(), places.end());
+  Enclosed enclosed{outward * within, outward * within};
+  bool shown = false;
+  // A plate goes on behind a short interruption.
+  const auto goes_on = [&](std::size_t from) {
+    int seen = 0;
+    for (std::size_t i = from; i < places.size() && places[i].first < places[from].first + kBridge;
+         ++i)
+      seen += places[i].second;
+    return seen >= 2;
+  };
+  for (std::size_t i = 0; i < places.size(); ++i) {
+    if (places[i].second) {
+      enclosed.inner = places[i].first, shown = true;
+      continue;
+    }
+    if (!shown || goes_on(i)) continue;
+    enclosed.outer = places[i].first;
+    return enclosed;
+  }
+  return std::nullopt;
+}
+
+// A plate's end: anywhere between two places, all alike, counted outward; mm.
+struct PlateEnd {
+  double low, high;
+  bool by_edge;
+
+  double share_beyond(double place) const {
+    return std::clamp((high - place) / (high - low), 0.0, 1.0);
+  }
+};
+
+// Of two plates the one that ends first, counted from within.
+void first_of(const PlateEnd& a, const PlateEnd& b, double& mean, double& variance) {
+  const double low = std::min(a.low, b.low), high = std::min(a.high, b.high);
+  const double step = (high - low) / kSteps;
+  double sum = 0, squares = 0;
+  for (int i = 0; i < kSteps; ++i) {
+    const double from = low + i * step, middle = from + step / 2;
+    const double share = a.share_beyond(from) * b.share_beyond(from) -
+                         a.share_beyond(from + step) * b.share_beyond(from + step);
+    sum += share * middle, squares += share * middle * middle;
+  }
+  mean = sum;
+  variance = std::max(squares - sum * sum, 0.0);
+}
+
+}  // namespace
+
+SeamEnd find_flat_end(const ScanCloud& cloud, const Joint& joint,
+                      const std::array<Stations, 2>& stations, SeamSide side,
+                      const EndSearch& search) {
+  const bool begin = side == SeamSide::kBegin;
+  const double outward = begin ? -1 : 1;
+  const Course& course = joint.course;
+  SeamEnd end;
+  end.along = begin ? course.begin : course.end;
+  end.visibility = EndVisibility::kOutside;
+  if (begin ? course.begins_outside : course.ends_outside) return end;
+
+  std::vector<PlateEnd> ends;
+  std::vector<PlateEdge> edges;
+  for (int j = 0; j < 2; ++j) {
+    const auto enclosed = enclose(stations[j], j, (course.begin + course.end) / 2, outward);
+    if (!enclosed) continue;  // runs on beyond the scan
+    const Line& border = joint.flat->borders[j];
+    const double from = border.along(joint.line.at(outward * enclosed->inner)) - outward * kMargin,
+                 to = border.along(joint.line.at(outward * enclosed->outer)) + outward * kMargin;
+    auto edge =
+        find_edge(cloud, joint.plates[j], joint.plates[1 - j], border, side,
+                  {std::min(from, to), std::max(from, to), search.tolerance, search.shortening_px});
+    PlateEnd plate_end{enclosed->inner, enclosed->outer, false};
+    if (edge) {
+      edge->along = joint.line.along(border.at(edge->along));
+      const double half = std::sqrt(3 * edge->variance);  // of as wide an even distribution
+      plate_end = {outward * edge->along - half, outward * edge->along + half, true};
+      edges.push_back(*edge);
+    }
+    ends.push_back(plate_end);
+  }
+  if (ends.empty()) return end;
+  end.visibility = EndVisibility::kSeen;
+  if (edges.size() == 2) {
+    const PlateEdge &a = edges[0], &b = edges[1];
+    const double variance = a.variance + b.variance, difference = a.along - b.along;
+    if (difference * difference <= kSameEdge * kSameEdge * variance) {  // cut flush
+      end.along = (a.along * b.variance + b.along * a.variance) / variance;
+      end.variance = a.variance * b.variance / variance;
+      end.by_edges = true;
+      return end;
+    }
+  }
+  double place = 0;
+  first_of(ends.front(), ends.back(), place, end.variance);
+  if (ends.size() == 1) {
+    place = (ends[0].low + ends[0].high) / 2;
+    end.variance = std::pow(ends[0].high - ends[0].low, 2) / 12;
+  }
+  end.along = outward * place;
+  end.by_edges = std::all_of(ends.begin(), ends.end(), [&](const PlateEnd& plate_end) {
+    return plate_end.by_edge || plate_end.low > place;
+  });
+  return end;
+}
+
+std::optional<SeamAccuracy> flat_accuracy(const Joint& joint,
+                                          const std::array<PlaneAccuracy, 2>& accuracies,
+                                          const SeamEnd& start, const SeamEnd& end) {
+  if (!accuracies[0].determined || !accuracies[1].determined) return std::nullopt;
+  const BorderFit& seam = joint.flat->seam;
+  const Eigen::Vector3d& along = joint.line.direction;
+  const Eigen::Vector3d across = joint.plates[0].plane.normal.cross(along).normalized();
+  const Eigen::Vector3d out = along.cross(across);
+  const auto covariance_at = [&](const SeamEnd& place) -> Eigen::Matrix3d {
+    // The line's own point is where the seam is known best.
+    const double sideways = seam.variance + seam.slope_variance * place.along * place.along;
+    return place.variance * along * along.transpose() +
+           (sideways + kFloor * kFloor) * across * across.transpose() +
+           accuracies[0].height_at(place.along) * out * out.transpose();
+  };
+  SeamAccuracy accuracy;
+  accuracy.start = covariance_at(start);
+  accuracy.end = covariance_at(end);
+  accuracy.direction = std::sqrt(seam.slope_variance + accuracies[0].slope_along);
+  for (int j = 0; j < 2; ++j)
+    accuracy.normals[j] = std::sqrt(accuracies[j].slope_along + accuracies[j].slope_away);
+  if (joint.type != JointType::kV)
+    accuracy.angle = std::sqrt(accuracies[0].slope_away + accuracies[1].slope_away);
+  return accuracy;
+}
+
+}  // namespace arcstart

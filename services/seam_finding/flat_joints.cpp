@@ -1,0 +1,368 @@
+#include "services/seam_finding/flat_joints.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <set>
+
+#include "services/seam_finding/flat_borders.hpp"
+#include "services/seam_finding/plane_fit.hpp"
+
+namespace arcstart {
+namespace {
+
+constexpr double kOnLine = 2;           // a passage from its line; mm
+constexpr double kLeastBase = 10;       // between the passages that draw a line; mm
+constexpr double kSteepest = 0.8;       // of it, mm across for each mm along
+constexpr std::size_t kDrawn = 200;     // passages that may draw one
+constexpr double kThrough = 0.6;        // share of the sections in which a seam shows
+constexpr double kFullReach = 10;       // as in joints.cpp; mm
+constexpr double kWiderThanHigh = 1.5;  // the upper plate of a lap
+constexpr double kBeside = 60;          // a plate's plane is fitted to what lies so near; mm
+constexpr double kNearNoise = 4;        // of a point on a plate, over the noise
+constexpr double kLeastNear = 0.15;     // mm
+constexpr double kEndDeviation = 0.25;  // of a stripe's end at a gap, standard; mm
+constexpr double kStepMargin = 1.2;     // steps
+constexpr double kHiddenFoot = 0.5;     // of a lap's score: whoever scans one looks at its foot
+constexpr double kShadow = 2;           // beside a step, over its height
+
+struct Candidate {
+  PlateFrame frame;
+  std::array<int, 2> faces{};     // at the smaller `across`, at the larger
+  std::vector<Passage> passages;  // on one line
+  double share = 0;               // of the sections that see both plates there
+};
+
+Eigen::Vector3d place_of(const ScanCloud& cloud, const PlateFrame& frame, const Passage& passage) {
+  return frame.of((cloud.points[passage.last] + cloud.points[passage.first]) / 2);
+}
+
+// The passages that lie together on the line which most sections support.
+std::vector<Passage> on_one_line(const ScanCloud& cloud, const PlateFrame& frame,
+                                 const std::vector<Passage>& passages) {
+  std::vector<Eigen::Vector3d> places;
+  for (const Passage& passage : passages) places.push_back(place_of(cloud, frame, passage));
+  const std::size_t stride = 1 + passages.size() / kDrawn;
+  std::size_t most = 0;
+  std::vector<Passage> best;
+  for (std::size_t a = 0; a < places.size(); a += stride)
+    for (std::size_t b = a + stride; b < places.size(); b += stride) {
+      const double base = places[b].x() - places[a].x();
+      const double slope = (places[b].y() - places[a].y()) / base;
+      if (std::abs(base) < kLeastBase || std::abs(slope) > kSteepest) continue;
+      std::set<int> sections;
+      std::vector<Passage> chosen;
+      for (std::size_t i = 0; i < places.size(); ++i) {
+        const double off = places[i].y() - places[a].y() - slope * (places[i].x() - places[a].x());
+        if (std::abs(off) <= kOnLine && sections.insert(passages[i].section).second)
+          chosen.push_back(passages[i]);
+      }
+      if (chosen.size() > most) most = chosen.size(), best = std::move(chosen);
+    }
+  return best;
+}
+
+// Of the sections between the first and the last of the passages: in how many one of them lies.
+double share_of_sections(const ScanCloud& cloud, const std::vector<Section>& sections,
+                         const std::vector<Passage>& passages) {
+  int first = passages.front().section, last = first, known = 0;
+  for (const Passage& passage : passages)
+    first = std::min(first, passage.section), last = std::max(last, passage.section);
+  for (int k = first; k <= last; ++k)
+    known += !cloud.organised() || cloud.stripes[k].seen != ScanStripe::Seen::kMissing
+                 ? !sections[k].empty()
+                 : 0;
+  return static_cast<double>(passages.size()) / std::max(1, known);
+}
+
+// A plate's points on its own side of its border, and the plane through those near it.
+JointPlate plate_of(const ScanCloud& cloud, const Candidate& candidate, const Face& face, int plate,
+                    double across_of_line, double slope, double contact) {
+  const double outward = plate == 0 ? -1 : 1;
+  JointPlate result;
+  result.contact = contact;
+  result.away = outward * candidate.frame.across;
+  PlaneSums sums(candidate.frame.origin);
+  for (const int i : face.points) {
+    const Eigen::Vector3d p = candidate.frame.of(cloud.points[i]);
+    const double away = outward * (p.y() - across_of_line - slope * p.x());
+    if (away < 0) continue;
+    result.points.push_back(i);
+    if (away < kBeside && !cloud.origins[i].segment_end) sums.add(cloud.points[i]);
+  }
+  result.plane = face.plane;
+  if (sums.weight() >= 20) {
+    const auto fit = sums.fit();
+    if (fit.spread[0] > 1)
+      result.plane = fit.plane.normal.dot(face.plane.normal) < 0 ? fit.plane.flipped() : fit.plane;
+  }
+  result.points = without_scraps(cloud, result.points);
+  return result;
+}
+
+// A border as a line on a plane.
+Line on_plane(const PlateFrame& frame, const BorderFit& border, const Plane& plane) {
+  const auto at = [&](double along) -> Eigen::Vector3d {
+    const Eigen::Vector3d p =
+        frame.origin + along * frame.along + border.across_at(along) * frame.across;
+    return p - plane.signed_distance(p) / plane.normal.dot(frame.normal) * frame.normal;
+  };
+  const Eigen::Vector3d from = at(border.middle - 50), to = at(border.middle + 50);
+  return {at(border.middle), (to - from).normalized()};
+}
+
+BorderFit middle_of(const BorderFit& a, const BorderFit& b) {
+  BorderFit fit;
+  fit.middle = (a.middle + b.middle) / 2;
+  fit.at_middle = (a.across_at(fit.middle) + b.across_at(fit.middle)) / 2;
+  fit.slope = (a.slope + b.slope) / 2;
+  fit.variance = (a.variance_at(fit.middle) + b.variance_at(fit.middle)) / 4;
+  fit.slope_variance = (a.slope_variance + b.slope_variance) / 4;
+  fit.places = std::min(a.places, b.places);
+  return fit;
+}
+
+double reach_of(const ScanCloud& cloud, const JointPlate& plate, const Line& border) {
+  std::vector<double> distances;
+  for (const int i : plate.points)
+    distances.push_back(std::abs(plate.away.dot(cloud.points[i] - border.point)));
+  if (distances.empty()) return 0;
+  const auto high =
+      distances.begin() + static_cast<std::ptrdiff_t>(9 * (distances.size() - 1) / 10);
+  std::nth_element(distances.begin(), high, distances.end());
+  return *high;
+}
+
+void set_type(const ScanCloud& cloud, const Candidate& candidate, const FlatSearch& search,
+              const Scales& scales, double near, Joint& joint) {
+  const PlateFrame& frame = candidate.frame;
+  const std::array<Plane, 2> planes = {joint.plates[0].plane, joint.plates[1].plane};
+  FlatSeam& flat = joint.flat.emplace();
+  const double pitch = scales.contact / 2;
+  const FlatBorders borders = borders_of(cloud, candidate.passages, frame, planes, near, pitch);
+  if (!borders.plates[0] || !borders.plates[1]) {
+    joint.flaw = "its edges are not straight";
+    return;
+  }
+  const BorderFit &first = *borders.plates[0], &second = *borders.plates[1];
+  const BorderFit middle = middle_of(first, second);
+  const Eigen::Vector3d place = on_plane(frame, middle, planes[0]).point;
+  const double step = planes[0].signed_distance(place) - planes[1].signed_distance(place);
+  const double width = second.across_at(middle.middle) - first.across_at(middle.middle);
+  flat.seam = middle;
+
+  if (std::abs(step) >= search.step_min) {
+    joint.type = JointType::kLap;
+    const int upper = step > 0 ? 1 : 0;
+    flat.step = std::abs(step);
+    flat.lower = 1 - upper;
+    joint.angle = M_PI;
+    const auto foot =
+        lap_foot(cloud, candidate.passages, frame, planes, upper, flat.step, near, pitch);
+    if (!foot) {
+      joint.flaw = "its edges are not straight";
+      return;
+    }
+    flat.seam = foot->fit;
+    flat.foot_hidden = !foot->seen;
+    flat.borders[upper] = on_plane(frame, foot->fit, planes[upper]);
+    flat.borders[1 - upper] = on_plane(frame, borders.plates[1 - upper].value(), planes[1 - upper]);
+    joint.line = on_plane(frame, foot->fit, planes[1 - upper]);
+    if (!search.lap)
+      joint.flaw = "a lap is not wanted";
+    else if (flat.step > search.step_max)
+      joint.flaw = fmt::format("its step is {:.1f} mm", flat.step);
+    else if (width > kShadow * flat.step + 2 * pitch)
+      joint.flaw = "the plates do not touch";
+    else if (reach_of(cloud, joint.plates[upper], flat.borders[upper]) < kWiderThanHigh * flat.step)
+      joint.flaw = "the upper plate is narrower than a plate is";
+    return;
+  }
+  flat.borders = {on_plane(frame, first, planes[0]), on_plane(frame, second, planes[1])};
+  const Line low = on_plane(frame, middle, planes[0]), high = on_plane(frame, middle, planes[1]);
+  joint.line = {(low.point + high.point) / 2, (low.direction + high.direction).normalized()};
+  for (const auto& slant : borders.slants)
+    if (slant) flat.half_angle = std::max(flat.half_angle, *slant);
+  const bool v = flat.half_angle > search.half_angle_min;
+  joint.type = v ? JointType::kV : JointType::kButt;
+  if (borders.slants[0] && borders.slants[1] && v)
+    flat.half_angle = (*borders.slants[0] + *borders.slants[1]) / 2;
+  joint.angle = v ? 2 * flat.half_angle : M_PI;
+  if (v ? !search.v : !search.butt)
+    joint.flaw = v ? "a groove is not wanted" : "a butt joint is not wanted";
+  else if (v && flat.half_angle > search.half_angle_max)
+    joint.flaw = fmt::format("its groove opens by {:.0f} deg", 2 * flat.half_angle * 180 / M_PI);
+  else if (width > (v ? search.width_max : search.gap_max) || width < 0)
+    joint.flaw = fmt::format("its gap is {:.1f} mm", width);
+}
+
+void judge(const ScanCloud& cloud, const Candidate& candidate, const FlatSearch& search,
+           const Scales& scales, Joint& joint) {
+  const CourseSearch course{scales.spacing, scales.tolerance};
+  joint.course = find_course(stations_of_both(stations_by_border(cloud, joint, course)), course);
+  const std::array<Line, 2>& borders = joint.flat->borders;
+  const double reach = std::min(reach_of(cloud, joint.plates[0], borders[0]),
+                                reach_of(cloud, joint.plates[1], borders[1]));
+  const double share = std::min(1.0, candidate.share);
+  joint.concavity = joint.explained = share;
+  joint.score = joint.course.covered * share * share * std::min(1.0, reach / kFullReach) *
+                (joint.flat->foot_hidden ? kHiddenFoot : 1);
+  if (!joint.flaw.empty()) return;
+  if (angle_between(joint.plates[0].plane.normal, joint.plates[1].plane.normal) > search.parallel)
+    joint.flaw = "its plates are not parallel";
+  else if (share < kThrough)
+    joint.flaw = fmt::format("it shows in {:.0f} % of the stripes only", 100 * share);
+  else if (reach < kFullReach / 2)
+    joint.flaw = "one of its plates is too narrow";
+  else if (joint.course.stripes < search.stripes_min)
+    joint.flaw = fmt::format("only {} stripes cross both plates", joint.course.stripes);
+  else if (joint.course.covered < search.length_min)
+    joint.flaw = fmt::format("both plates were seen on {:.0f} mm only", joint.course.covered);
+}
+
+// In the middle of the scan's way a plate that a stripe leaves is there for the width alone.
+void measure_gaps(const ScanCloud& cloud, const Candidate& candidate, Joint& joint) {
+  FlatSeam& flat = *joint.flat;
+  if (joint.type == JointType::kLap) return;
+  const Eigen::Vector3d across = (joint.line.direction.cross(candidate.frame.normal)).normalized();
+  const double width = std::abs(across.dot(flat.borders[1].point - flat.borders[0].point));
+  for (const Passage& passage : candidate.passages) {
+    const Eigen::Vector3d &a = cloud.points[passage.last], &b = cloud.points[passage.first];
+    double seen = std::abs(across.dot(b - a));
+    if (!cloud.origins[passage.last].segment_end || !cloud.origins[passage.first].segment_end)
+      seen = width;  // a thinned-out stripe tells no more than the lines through all of them
+    flat.gaps.push_back({joint.line.along((a + b) / 2), seen});
+  }
+  flat.gap_deviation = kEndDeviation * std::sqrt(2.0);
+}
+
+std::optional<Joint> joint_at(const ScanCloud& cloud, const std::vector<Face>& faces,
+                              const Candidate& candidate, const FlatSearch& search,
+                              const Scales& scales, double near) {
+  if (static_cast<int>(candidate.passages.size()) < search.stripes_min) return std::nullopt;
+  std::vector<BorderPlace> places;
+  for (const Passage& passage : candidate.passages) {
+    const Eigen::Vector3d p = place_of(cloud, candidate.frame, passage);
+    places.push_back({p.x(), p.y(), 0, 1});
+  }
+  const auto rough = fit_border(places, 1);
+  if (!rough) return std::nullopt;
+  Joint joint;
+  joint.faces = candidate.faces;
+  for (int j = 0; j < 2; ++j)
+    joint.plates[j] = plate_of(cloud, candidate, faces[candidate.faces[j]], j, rough->across_at(0),
+                               rough->slope, scales.contact);
+  if (joint.plates[0].points.empty() || joint.plates[1].points.empty()) return std::nullopt;
+  set_type(cloud, candidate, search, scales, near, joint);
+  for (int j = 0; j < 2; ++j)
+    joint.plates[j].away =
+        (j == 0 ? -1 : 1) * candidate.frame.normal.cross(joint.line.direction).normalized();
+  const std::array<Line, 2>& borders = joint.flat->borders;
+  if (borders[0].direction == borders[1].direction && joint.flaw == "its edges are not straight")
+    return std::nullopt;
+  judge(cloud, candidate, search, scales, joint);
+  if (joint.flaw.empty()) measure_gaps(cloud, candidate, joint);
+  return joint;
+}
+
+// A stripe that runs on to a plate's border has its nearest point, one more than the tolerance
+// away, within a step between points; one that leaves the plate before has not.
+double running_on(const ScanCloud& cloud, const JointPlate& plate, double tolerance) {
+  std::vector<double> steps;
+  for (std::size_t i = 1; i < plate.points.size(); ++i) {
+    const int a = plate.points[i - 1], b = plate.points[i];
+    if (b == a + 1 && cloud.origins[a].stripe == cloud.origins[b].stripe &&
+        cloud.origins[a].segment == cloud.origins[b].segment)
+      steps.push_back((cloud.points[b] - cloud.points[a]).norm());
+  }
+  if (steps.empty()) return plate.contact;
+  const auto high = steps.begin() + static_cast<std::ptrdiff_t>(9 * (steps.size() - 1) / 10);
+  std::nth_element(steps.begin(), high, steps.end());
+  return std::min(plate.contact, tolerance + kStepMargin * *high);
+}
+
+bool parallel(const Face& a, const Face& b, double tolerance) {
+  return angle_between(a.plane.normal, b.plane.normal) < 2 * tolerance;
+}
+
+}  // namespace
+
+std::vector<Joint> find_flat_joints(const ScanCloud& cloud, const std::vector<Face>& faces,
+                                    const FlatSearch& search, const Scales& scales) {
+  std::vector<Joint> joints;
+  const auto way = search_direction(cloud);
+  if (!way) return joints;
+  std::vector<int> face_of(cloud.points.size(), -1);
+  for (int f = 0; f < static_cast<int>(faces.size()); ++f)
+    for (const int i : faces[f].points) face_of[i] = f;
+  const double near = std::min(scales.tolerance, std::max(kLeastNear, kNearNoise * scales.noise));
+  for (int a = 0; a < static_cast<int>(faces.size()); ++a) {
+    const Plane& plane = faces[a].plane;
+    const Eigen::Vector3d along = *way - way->dot(plane.normal) * plane.normal;
+    if (along.norm() < 0.5) continue;
+    PlateFrame frame;
+    frame.origin = cloud.points[faces[a].points[faces[a].points.size() / 2]];
+    frame.along = along.normalized();
+    frame.normal = plane.normal;
+    frame.across = frame.normal.cross(frame.along);
+    const auto sections = sections_across(cloud, frame, scales.spacing);
+    for (int b = a; b < static_cast<int>(faces.size()); ++b) {
+      if (!parallel(faces[a], faces[b], search.parallel)) continue;
+      const auto all = passages_between(cloud, sections, face_of, faces, a, b, near);
+      for (const bool rising : {true, false}) {
+        if (a == b && !rising) continue;
+        std::vector<Passage> passages;
+        for (const Passage& passage : all)
+          if (passage.rising == rising || a == b) passages.push_back(passage);
+        Candidate candidate;
+        candidate.frame = frame;
+        candidate.faces = rising ? std::array<int, 2>{a, b} : std::array<int, 2>{b, a};
+        candidate.passages = on_one_line(cloud, frame, passages);
+        if (candidate.passages.empty()) continue;
+        candidate.share = share_of_sections(cloud, sections, candidate.passages);
+        if (auto joint = joint_at(cloud, faces, candidate, search, scales, near))
+          joints.push_back(std::move(*joint));
+      }
+    }
+  }
+  return joints;
+}
+
+std::array<Stations, 2> stations_by_border(const ScanCloud& cloud, const Joint& joint,
+                                           const CourseSearch& search) {
+  std::array<Stations, 2> stations;
+  for (int j = 0; j < 2; ++j) {
+    const Line& border = joint.flat->borders[j];
+    stations[j] = stations_along(cloud, joint.plates, border, search);
+    for (Station& station : stations[j].list)
+      station.along = joint.line.along(border.at(station.along));
+    if (cloud.organised())
+      stations[j].near[j] = running_on(cloud, joint.plates[j], search.tolerance);
+  }
+  return stations;
+}
+
+Stations stations_of_both(const std::array<Stations, 2>& by_border) {
+  Stations both = by_border[0];
+  both.near[1] = by_border[1].near[1];
+  for (Station& station : both.list) {
+    // The same stripe or, without stripes, the same place.
+    const auto off = [&](const Station& s) {
+      return station.stripe >= 0 ? std::abs(s.stripe - station.stripe)
+                                 : std::abs(s.along - station.along);
+    };
+    const auto& others = by_border[1].list;
+    const auto same =
+        std::min_element(others.begin(), others.end(),
+                         [&](const Station& a, const Station& b) { return off(a) < off(b); });
+    if (same == others.end()) continue;
+    station.nearest[1] = same->nearest[1];
+    station.along = (station.along + same->along) / 2;
+  }
+  std::stable_sort(both.list.begin(), both.list.end(),
+                   [](const Station& a, const Station& b) { return a.along < b.along; });
+  return both;
+}
+
+}  // namespace arcstart

@@ -1,0 +1,16 @@
+// What is measured along a seam between parallel plates, stripe by stripe.
+#pragma once
+
+#include "services/seam_finding/joints.hpp"
+#include "services/seam_finding/seam_survey.hpp"
+
+namespace arcstart {
+
+// As survey_seam(): a place for every station between begin and end; the gap where it was seen, and
+// tack welds. What the stations alone tell of the seam's course is coarser than its line, so that
+// no residual is given.
+std::vector<SurveyPlace> survey_flat(const ScanCloud& cloud, const Joint& joint,
+                                     const Stations& stations, double begin, double end,
+                                     double spacing_mm);
+
+}  // namespace arcstart
