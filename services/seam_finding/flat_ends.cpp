@@ -12,6 +12,7 @@ constexpr double kSameEdge = 2.5;  // standard deviations of their difference
 constexpr double kMargin = 0.5;    // of an edge about the stripes that enclose it; mm
 constexpr double kFloor = 0.02;    // of the seam across, whatever the number of its places; mm
 constexpr double kBridge = 20;     // mm
+constexpr double kShortest = 1.5;  // of what shows a plate, over the distance that does
 constexpr int kSteps = 200;
 
 // Between which stripes a plate ends, counted outward; mm.
@@ -47,6 +48,20 @@ std::optional<Enclosed> enclose(const Stations& stations, int plate, double with
     return enclosed;
   }
   return std::nullopt;
+}
+
+// How stripes cross a plate: mm outward along the seam for each mm away from it.
+double slant_of(const ScanCloud& cloud, const JointPlate& plate, const Line& border,
+                double outward) {
+  double squares = 0, products = 0;
+  for (std::size_t i = 1; i < plate.points.size(); ++i) {
+    const int a = plate.points[i - 1], b = plate.points[i];
+    if (b != a + 1 || cloud.origins[a].stripe != cloud.origins[b].stripe) continue;
+    const Eigen::Vector3d step = cloud.points[b] - cloud.points[a];
+    const double away = plate.away.dot(step);
+    squares += away * away, products += away * outward * border.direction.dot(step);
+  }
+  return squares > 0 ? products / squares : 0;
 }
 
 // A plate's end: anywhere between two places, all alike, counted outward; mm.
@@ -93,12 +108,17 @@ SeamEnd find_flat_end(const ScanCloud& cloud, const Joint& joint,
     const auto enclosed = enclose(stations[j], j, (course.begin + course.end) / 2, outward);
     if (!enclosed) continue;  // runs on beyond the scan
     const Line& border = joint.flat->borders[j];
-    const double from = border.along(joint.line.at(outward * enclosed->inner)) - outward * kMargin,
-                 to = border.along(joint.line.at(outward * enclosed->outer)) + outward * kMargin;
+    // A stripe that leaves the plate shortly before it reaches the border seems to show it there,
+    // and one that lies on it shortly beside the border is too short to show it.
+    const double slant = slant_of(cloud, joint.plates[j], border, outward);
+    PlateEnd plate_end{enclosed->inner - std::max(0.0, -slant) * stations[j].near[j],
+                       enclosed->outer + std::max(0.0, slant) * kShortest * stations[j].near[j],
+                       false};
+    const double from = border.along(joint.line.at(outward * plate_end.low)) - outward * kMargin,
+                 to = border.along(joint.line.at(outward * plate_end.high)) + outward * kMargin;
     auto edge =
         find_edge(cloud, joint.plates[j], joint.plates[1 - j], border, side,
                   {std::min(from, to), std::max(from, to), search.tolerance, search.shortening_px});
-    PlateEnd plate_end{enclosed->inner, enclosed->outer, false};
     if (edge) {
       edge->along = joint.line.along(border.at(edge->along));
       const double half = std::sqrt(3 * edge->variance);  // of as wide an even distribution
