@@ -163,8 +163,36 @@ FrameVector<int> Selector::best_path() const {
   return path;
 }
 
+bool Selector::changes_stripe(const Candidate& from, const Candidate& to) const {
+  return from.strand != to.strand && to.line - from.line <= kNear &&
+         offset_from_line(from, to) > kLongestNearJump;
+}
+
+FrameVector<int> Selector::rest_of_strand(int candidate, int step, int reach) const {
+  const Candidate& from = candidates_[candidate];
+  FrameVector<int> rest(memory_);
+  float across = from.across;
+  const int lines = static_cast<int>(line_begin_.size()) - 1;
+  for (int k = 1; k <= reach + 1; ++k) {
+    const int line = from.line + step * k;
+    if (line < 0 || line >= lines) break;
+    int nearest = -1;
+    for (int i = line_begin_[line]; i < line_begin_[line + 1]; ++i)
+      if (candidates_[i].strand == from.strand &&
+          (nearest < 0 || std::abs(candidates_[i].across - across) <
+                              std::abs(candidates_[nearest].across - across)))
+        nearest = i;
+    if (nearest < 0) continue;
+    if (k > reach) return FrameVector<int>(memory_);  // it does not end here
+    rest.push_back(nearest);
+    across = candidates_[nearest].across;
+  }
+  return rest;
+}
+
 void Selector::split_path(const FrameVector<int>& path, const SelectionSettings& settings,
                           Selection& selection) {
+  const int reach = static_cast<int>(settings.junction_reach);
   chosen_.assign(line_begin_.size() - 1, -1);
   for (std::size_t begin = 0; begin < path.size();) {
     std::size_t end = begin + 1;
@@ -175,10 +203,18 @@ void Selector::split_path(const FrameVector<int>& path, const SelectionSettings&
     }
     if (static_cast<int>(end - begin) >= settings.fewest_points) {
       Branch branch{FrameVector<int>(memory_)};
+      if (begin > 0 && changes_stripe(candidates_[path[begin - 1]], candidates_[path[begin]])) {
+        const FrameVector<int> before = rest_of_strand(path[begin], -1, reach);
+        for (auto i = before.rbegin(); i != before.rend(); ++i)
+          branch.points.push_back(candidates_[*i].point);
+      }
       for (std::size_t i = begin; i < end; ++i) {
         branch.points.push_back(candidates_[path[i]].point);
         chosen_[candidates_[path[i]].line] = path[i];
       }
+      if (end < path.size() && changes_stripe(candidates_[path[end - 1]], candidates_[path[end]]))
+        for (const int i : rest_of_strand(path[end - 1], +1, reach))
+          branch.points.push_back(candidates_[i].point);
       selection.branches.push_back(std::move(branch));
     }
     begin = end;

@@ -22,7 +22,8 @@ struct Selection {
   bool along_rows =
       false;  // one centre a row: the stripe runs down the image rather than across it
   std::vector<Branch>
-      branches;  // the chosen ones first, in order along the image; no two chosen share a column
+      branches;  // the chosen ones first, in order along the image; no two chosen share a column,
+                 // but for their last few where one surface hides another
 };
 
 struct SelectionSettings {
@@ -38,12 +39,14 @@ class Selector {
   //
   // A laser sheet is seen at most once a column, except where one surface hides another. So the
   // path of greatest worth from the first to the last column is taken, a column having one of its
-  // points or none. A point is worth more the stronger it is, up to the usual strength in the
-  // image, and less the more its width differs from the usual; a bright blob gains nothing. Leaving
-  // a line costs, whatever the distance to the next, so that a step in the profile is followed and
-  // a short detour is not. A chain beside a clearly stronger one for most of its length is its
-  // reflection and is worth nothing, even where the stronger one has a gap. Nothing is put in where
-  // there is no point. The branches lie in the memory given.
+  // points or none. Where it changes to another stripe, either is followed on to its end if that is
+  // a few columns off: its last centres are weak, and tell where the surface ends. A point is worth
+  // more the stronger it is, up to the usual strength in the image, and less the more its width
+  // differs from the usual; a bright blob gains nothing. Leaving a line costs, whatever the
+  // distance to the next, so that a step in the profile is followed and a short detour is not. A
+  // chain beside a clearly stronger one for most of its length is its reflection and is worth
+  // nothing, even where the stronger one has a gap. Nothing is put in where there is no point. The
+  // branches lie in the memory given.
   void select(const std::vector<RidgePoint>& points, const std::vector<Chain>& chains,
               const std::vector<float>& widths, const SelectionSettings& settings,
               Selection& selection, Memory memory = heap());
@@ -62,6 +65,11 @@ class Selector {
   void rate(const std::vector<float>& widths);
   FrameVector<int> best_path() const;
   float leaving_cost(const Candidate& from, const Candidate& to) const;
+  // The path goes on, far across, on another stripe.
+  bool changes_stripe(const Candidate& from, const Candidate& to) const;
+  // The candidates of the same strand behind (step 1) or before (-1) this one, one a column, from
+  // it outward; none where the strand goes on for more than `reach` columns.
+  FrameVector<int> rest_of_strand(int candidate, int step, int reach) const;
   void split_path(const FrameVector<int>& path, const SelectionSettings& settings,
                   Selection& selection);
   void add_second_candidates(const SelectionSettings& settings, Selection& selection);

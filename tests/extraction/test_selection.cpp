@@ -118,6 +118,23 @@ TEST_CASE("no column has two chosen centres, and no gap is filled") {
         std::vector{SegmentEnd::kBorder, SegmentEnd::kGap, SegmentEnd::kGap, SegmentEnd::kBorder});
 }
 
+TEST_CASE("where one surface hides another, both stripes are followed to their ends") {
+  // A weak stripe begins in the columns in which a strong one ends, far across.
+  Drawing drawing;
+  const double overlap = GENERATE(0, 2, 4);
+  drawing.stripe = {{-5, 100, 400 + overlap, 120, 120}, {400, 300, 805, 420, 45}};
+  const Stripe stripe = extract(drawing.grey());
+  float first_end = 0, second_begin = 1000;
+  for (const StripeCentre& c : stripe.centres) {
+    if (!c.chosen) continue;
+    if (c.v < 200) first_end = std::max(first_end, c.u);
+    if (c.v > 200) second_begin = std::min(second_begin, c.u);
+  }
+  INFO("overlap " << overlap);
+  CHECK(first_end == Approx(400 + overlap).margin(1.5));
+  CHECK(second_begin == Approx(400).margin(1.5));
+}
+
 TEST_CASE("the profile of a Tee joint is followed around its corner, not along the reflection") {
   // The base plate rises to the corner and the upright plate falls from it; each plate mirrors the
   // other's stripe, and the reflection leaves the corner nearly in the direction in which the
