@@ -11,25 +11,28 @@ constexpr double kSquareCut =
     0.01;                        // standard deviation of an edge's slope; mm along for each mm away
 constexpr double kAgree = 0.35;  // places on one edge, along the seam; mm
 constexpr double kAgreeSlope = 0.02;  // and so much more for each mm between them
-constexpr double kLeastNoise = 0.04;  // of a place along the seam, standard deviation; mm
+constexpr double kLeastNoise = 0.03;  // of a place along the seam, standard deviation; mm
 constexpr int kPriorPlaces = 2;       // with that noise, in the estimate of the noise
 constexpr double kFloor = 0.02;       // of an edge, whatever the number of its places; mm
-// Light ends over edges in many ways: of the shortening, common to an edge; px.
-constexpr double kShorteningDeviation = 1;
+// A stripe's last centre lies before the edge by `shortening_px`, square to it: by so much more or
+// less each, and all of an edge together, for light ends over edges in many ways; px.
+constexpr double kEndDeviation = 0.45, kShorteningDeviation = 0.25;
 constexpr double kOutlier = 3;   // standard deviations
 constexpr double kNearSeam = 3;  // of it stripes turn into the other plate; mm
 constexpr double kFarEdge = 3;   // a stripe that ends so near the plate's far edge ends there; mm
-constexpr double kLeastDrop = 0.5;    // between points on a cut; mm
-constexpr double kCornerSlack = 0.5;  // mm
-constexpr double kCornerNoise = 0.3;  // along the stripe; mm
-constexpr double kChord = 3;          // over which a stripe's direction is taken; mm
+constexpr double kLeastDrop = 0.5;  // between points on a cut; mm
+constexpr double kCutSlant = 0.15;  // of a cut, mm along the seam for each mm of its depth
+constexpr double kCutNoise = 0.1;   // of a cut's place along the seam; mm
+constexpr double kBeam = 0.5;  // of a point's noise across its surface what it is along the seam
+constexpr double kChord = 3;   // over which a stripe's direction is taken; mm
+constexpr double kLeastSight = 0.1;   // sine of the angle between a line of sight and a plate
 constexpr double kLeastSlant = 0.05;  // of a stripe, mm along the seam for each mm of its length
 
 // Where a stripe leaves the plate.
 struct Place {
   double along = 0, away = 0;  // mm
   double deviation = 0;        // of along, for want of resolution alone; mm
-  double pixel = 0;    // what a pixel along the stripe is along the seam; mm, at a segment's end
+  double pixel = 0;    // what a pixel square to the edge is along the seam; mm, at a segment's end
   bool sharp = false;  // a segment ends there, or turns over the edge
   bool occluded = false;
 };
@@ -66,26 +69,49 @@ double thinned_step(const ScanCloud& cloud, const std::vector<int>& run) {
   return *middle;
 }
 
-// Where the stripe turns over the plate's edge into the cut: the line through its next two points
-// meets the plate there.
-std::optional<Eigen::Vector3d> corner_beyond(const ScanCloud& cloud, const JointPlate& plate,
-                                             int last, bool at_back,
-                                             const Eigen::Vector3d& direction, double step) {
+// Where along the seam the cut is over whose edge the stripe turns, from its next two points: a cut
+// is square to the plate, so that what lies on it lies at the edge.
+std::optional<double> cut_beyond(const ScanCloud& cloud, const JointPlate& plate, const Line& line,
+                                 int last, bool at_back, const EdgeSearch& search) {
   const int one = at_back ? last + 1 : last - 1, two = at_back ? last + 2 : last - 2;
   const auto joined = [&](int i) {
     return i >= 0 && i < cloud.size() && cloud.origins[i].stripe == cloud.origins[last].stripe &&
            cloud.origins[i].segment == cloud.origins[last].segment;
   };
   if (!joined(one) || !joined(two)) return std::nullopt;
-  const Eigen::Vector3d &a = cloud.points[one], &b = cloud.points[two];
-  const double below = -plate.plane.signed_distance(a), deeper = -plate.plane.signed_distance(b);
-  if (deeper - below < kLeastDrop) return std::nullopt;
-  const Eigen::Vector3d corner = a + (a - b) * below / (deeper - below);
-  const double ahead = direction.dot(corner - cloud.points[last]);
-  if (ahead < -kCornerSlack || ahead > step + kCornerSlack ||
-      (corner - cloud.points[last]).norm() > step + kCornerSlack)
+  const double below = -plate.plane.signed_distance(cloud.points[one]);
+  const double deeper = -plate.plane.signed_distance(cloud.points[two]);
+  const double apart = line.along(cloud.points[one]) - line.along(cloud.points[two]);
+  if (deeper - below < kLeastDrop ||
+      std::abs(apart) > kCutSlant * (deeper - below) + kOutlier * kBeam * search.noise)
     return std::nullopt;
-  return corner;
+  return (line.along(cloud.points[one]) + line.along(cloud.points[two])) / 2;
+}
+
+// Where the light at a segment's end lies. Of a stripe that is cut off at a slant the last of the
+// light lies beside the laser's plane, but on the plate it does lie: where the line of sight meets
+// it.
+std::optional<Eigen::Vector3d> on_plate(const ScanCloud& cloud, const JointPlate& plate, int i) {
+  const Eigen::Vector3d& eye = cloud.seen_from(i);
+  const Eigen::Vector3d sight = cloud.points[i] - eye;
+  const double toward = -plate.plane.normal.dot(sight.normalized());
+  if (toward < kLeastSight) return std::nullopt;
+  return cloud.points[i] +
+         sight.normalized() * (plate.plane.signed_distance(cloud.points[i]) / toward);
+}
+
+// Way along the seam that shifts an edge square to it by a pixel in the image; mm. A pixel is known
+// from the centre next to the segment's end: so many pixels lie between as steps.
+double pixel_along(const ScanCloud& cloud, int end, int next, const Line& line,
+                   const Eigen::Vector3d& away) {
+  const Eigen::Vector3d& eye = cloud.seen_from(end);
+  const Eigen::Vector3d sight = cloud.points[end] - eye, beside = cloud.points[next] - eye;
+  const double way = (beside - sight).norm();
+  if (!(way > 0)) return 0;
+  const double angle =
+      std::atan2(sight.cross(beside).norm(), sight.dot(beside)) * cloud.origins[end].step / way;
+  const double across = std::abs(sight.cross(away).normalized().dot(line.direction));
+  return across > kLeastSight ? angle * sight.norm() / across : 0;
 }
 
 std::optional<Place> place_of(const ScanCloud& cloud, const std::vector<int>& run,
@@ -106,23 +132,31 @@ std::optional<Place> place_of(const ScanCloud& cloud, const std::vector<int>& ru
   const Eigen::Vector3d direction = direction_at_end(cloud, run, at_back);
   const double slant = std::abs(direction.dot(line.direction));
   if (slant < kLeastSlant) return std::nullopt;
-  // A segment's end is known to a centre. A segment that runs on turns at the plate's edge into the
-  // cut, if the cut is in sight; else the plate ends between two of the points that are left.
-  const bool ends = cloud.origins[last].segment_end;
-  const double step = ends ? cloud.origins[last].step : thinned_step(cloud, run);
-  const auto corner =
-      ends ? std::nullopt : corner_beyond(cloud, plate, last, at_back, direction, step);
-  const Eigen::Vector3d point =
-      corner ? *corner
-             : Eigen::Vector3d(cloud.points[last] +
-                               (ends ? search.shortening_px : 0.5) * step * direction);
   const Eigen::Vector3d away = away_from_seam(plate, other);
+  const double outward = side == SeamSide::kEnd ? 1 : -1;
   Place place;
-  place.along = line.along(point);
-  place.away = away.dot(point - line.point);
-  place.deviation = slant * (corner ? kCornerNoise : step / std::sqrt(12.0));
-  place.pixel = ends ? slant * step : 0;
-  place.sharp = ends || corner;
+  if (cloud.origins[last].segment_end) {
+    // Known to a centre.
+    const auto point = on_plate(cloud, plate, last);
+    if (!point) return std::nullopt;
+    const int inner = at_back ? run[run.size() - 2] : run[1];
+    place.pixel = pixel_along(cloud, last, inner, line, away);
+    place.along = line.along(*point) + outward * search.shortening_px * place.pixel;
+    place.away = away.dot(*point - line.point);
+    place.deviation = std::hypot(kEndDeviation * place.pixel, kBeam * search.noise);
+    place.sharp = true;
+  } else {
+    // A segment that runs on turns at the plate's edge into the cut, if the cut is in sight; else
+    // the plate ends between two of the points that are left.
+    const double step = thinned_step(cloud, run);
+    const auto cut = cut_beyond(cloud, plate, line, last, at_back, search);
+    const Eigen::Vector3d point = cloud.points[last] + 0.5 * step * direction;
+    place.along = cut ? *cut : line.along(point);
+    place.away = away.dot(point - line.point);
+    place.deviation =
+        cut ? std::hypot(kCutNoise, kBeam * search.noise) : slant * step / std::sqrt(12.0);
+    place.sharp = cut.has_value();
+  }
   place.occluded = more && plate.plane.signed_distance(cloud.points[beyond]) > 2 * search.tolerance;
   return place;
 }
@@ -194,11 +228,10 @@ std::optional<PlateEdge> find_edge(const ScanCloud& cloud, const JointPlate& pla
   const double far = far_edge(cloud, runs, line, away);
   for (const auto& run : runs)
     if (const auto place = place_of(cloud, run, plate, other, line, side, search))
-      if (place->sharp || (place->away > kNearSeam && place->away < far)) places.push_back(*place);
+      if (place->away < far && (place->sharp || place->away > kNearSeam)) places.push_back(*place);
   std::vector<Place> on_edge = largest_agreement(places, search);
-  // A lone stripe that ends beside the seam, or at the far edge, ends for another reason.
-  if (on_edge.size() == 1 && !(on_edge[0].away > kNearSeam && on_edge[0].away < far))
-    return std::nullopt;
+  // A lone stripe that ends beside the seam ends for another reason.
+  if (on_edge.size() == 1 && on_edge[0].away <= kNearSeam) return std::nullopt;
 
   PlateEdge edge;
   for (int pass = 0; pass < 3 && !on_edge.empty(); ++pass) {

@@ -45,8 +45,8 @@ Bracket bracket_of(const Stations& stations, int plate, double end, double outwa
 
 // Of two plates the one that ends the seam first, where the second is known by a bracket only. Two
 // plates are often set flush; else the one ends anywhere about the other's end.
-void limit_by_bracket(SeamEnd& end, const Bracket& bracket, double outward) {
-  const double inner = outward * bracket.inner, outer = outward * bracket.outer;
+void limit_by_bracket(SeamEnd& end, const Bracket& bracket, double margin, double outward) {
+  const double inner = outward * bracket.inner, outer = outward * bracket.outer + margin;
   const double edge = outward * end.along;
   if (edge <= inner || !(outer > inner)) return;
   const double high = std::min(edge, outer), per_mm = (1 - kFlush) / kOffsets;
@@ -119,6 +119,7 @@ SeamEnd find_end(const ScanCloud& cloud, const std::array<JointPlate, 2>& plates
     edge_search.from = std::min(inner, outer);
     edge_search.to = std::max(inner, outer);
     edge_search.tolerance = search.tolerance;
+    edge_search.noise = search.noise;
     edge_search.shortening_px = search.shortening_px;
     edges[j] = find_edge(cloud, plates[j], plates[1 - j], line, side, edge_search);
   }
@@ -150,7 +151,8 @@ SeamEnd find_end(const ScanCloud& cloud, const std::array<JointPlate, 2>& plates
   end.along = edge.along;
   end.variance = edge.variance;
   for (int j = 0; j < 2; ++j)
-    if (!edges[j] && !brackets[j].runs_on) limit_by_bracket(end, brackets[j], outward);
+    if (!edges[j] && !brackets[j].runs_on)
+      limit_by_bracket(end, brackets[j], kMargin + kMostSlant * stations.near[j], outward);
   if (edge.occluded) end.visibility = EndVisibility::kHidden;
   return end;
 }

@@ -17,7 +17,8 @@ struct SeamEnd {
 
 struct EndSearch {
   double tolerance = 0.5;    // of a point's distance from its plate; mm
-  double shortening_px = 0;  // a stripe's last centre lies so far before the edge
+  double noise = 0.05;       // of the points across their surface, standard deviation; mm
+  double shortening_px = 0;  // a stripe's last centre lies so far before the edge, square to it
 };
 
 // The seam begins where both plates have begun: at the later of their edges; where the two agree

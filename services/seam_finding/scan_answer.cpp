@@ -49,13 +49,12 @@ ScanStripe::Seen seen_in(const profile_t& profile) {
   return nothing ? ScanStripe::Seen::kEmpty : ScanStripe::Seen::kMissing;
 }
 
-// Between neighbouring centres of the stripe there, which are a pixel apart: from the neighbour
-// that down-sampling left.
+// Way on the surface that is a pixel along the stripe there: from the neighbour that down-sampling
+// left.
 float step_at(const profile_t& profile, int i) {
   for (const int j : {i - 1, i + 1}) {
     if (j < 0 || j >= profile.count || profile.segment[j] != profile.segment[i]) continue;
-    const float pixels =
-        std::max(std::abs(profile.u[j] - profile.u[i]), std::abs(profile.v[j] - profile.v[i]));
+    const float pixels = std::hypot(profile.u[j] - profile.u[i], profile.v[j] - profile.v[i]);
     const float way = std::hypot(profile.x[j] - profile.x[i], profile.y[j] - profile.y[i],
                                  profile.z[j] - profile.z[i]);
     if (pixels > 0.5f) return way / pixels;

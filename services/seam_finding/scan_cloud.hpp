@@ -30,7 +30,7 @@ struct PointOrigin {
   int segment = 0;           // of the stripe
   bool segment_end = false;  // first or last of its segment
   float deviation = 0;       // standard deviation across the stripe; mm, 0 where not measured
-  float step = 0;  // to the stripe's next centre, before it was thinned out; mm, 0 where not known
+  float step = 0;            // a pixel of the image along the stripe; mm, 0 where not known
 };
 
 // Either a scan, with stripes, or an unorganised cloud, without, seen from one viewpoint.

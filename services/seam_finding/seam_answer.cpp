@@ -43,7 +43,7 @@ std::array<PlaneAccuracy, 2> plane_accuracies(const ScanCloud& scan, const Joint
 
 std::array<SeamEnd, 2> ends_of(const ScanCloud& scan, const Joint& joint, const Scales& scales,
                                const SeamFindingSettings& settings) {
-  const EndSearch search{scales.tolerance, settings.edge_shortening_px};
+  const EndSearch search{scales.tolerance, scales.noise, settings.edge_shortening_px};
   std::array<SeamEnd, 2> ends;
   if (joint.flat) {
     const auto stations = stations_by_border(scan, joint, course_search(scales));

@@ -53,8 +53,9 @@ struct SeamFindingSettings {
   // points of both plates along the seam.
   std::string start_rule = "edges";
   int start_points = 10;  // x
-  // The detector's last centre of a segment lies so many pixels before the edge of what it lies on.
-  double edge_shortening_px = 2.8;
+  // The detector's last centre of a segment lies so many pixels before the edge of what it lies on,
+  // square to the edge in the image, whatever the slant at which the stripe crosses it.
+  double edge_shortening_px = 0.8;
 
   // Torch.
   double torch_work_angle_deg = 0;     // between it and the flatter plate; 0: in the middle of both

@@ -9,7 +9,7 @@ namespace arcstart {
 // seeds: of each row; the row with a tool has twice as many.
 void bench_rendered(int seeds, nlohmann::json& json);
 
-// Profiles in closed form, noise of 0.1 and 0.3 mm along the line of sight, through seam finding.
+// Profiles in closed form, noise of 0.1 and 0.3 mm along the laser's beam, through seam finding.
 void bench_profiles(int seeds, nlohmann::json& json);
 
 // What of the table is left and what of the workpiece is lost, by the default rule and the paper's.

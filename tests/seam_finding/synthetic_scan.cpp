@@ -167,7 +167,7 @@ SyntheticScan make_scan(const Scene& scene, const ScanChoice& choice, std::uint6
     for (auto& segment : segments) {
       for (const bool front : {true, false}) {
         const std::size_t lost =
-            std::min<std::size_t>(segment.size(), random.between(0, 1) < 0.7 ? 2 : 3);
+            std::min<std::size_t>(segment.size(), random.between(0, 1) < 0.6 ? 1 : 2);
         const auto count = static_cast<std::ptrdiff_t>(lost);
         if (front)
           segment.erase(segment.begin(), segment.begin() + count);
@@ -178,10 +178,11 @@ SyntheticScan make_scan(const Scene& scene, const ScanChoice& choice, std::uint6
       for (std::size_t i = 0; i < segment.size(); ++i) {
         const bool end = i == 0 || i + 1 == segment.size();
         if (!end && i % static_cast<std::size_t>(choice.thin) != 0) continue;
-        const Eigen::Vector3d sight = (segment[i].point - camera).normalized();
+        // A centre that is off across the stripe lies elsewhere in the laser's plane.
+        const Eigen::Vector3d beam = (segment[i].point - laser).normalized();
         const bool outlier = random.between(0, 1) < choice.outliers;
         const double off = outlier ? random.between(-20, 20) : random.normal(choice.noise);
-        cloud.points.push_back(segment[i].point + off * sight + shift);
+        cloud.points.push_back(segment[i].point + off * beam + shift);
         scan.truth.push_back(outlier ? Truth::kOutlier : segment[i].truth);
         const std::size_t next = i == 0 ? 1 : i - 1;
         cloud.origins.push_back(
