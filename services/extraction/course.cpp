@@ -2,216 +2,155 @@
 
 #include <algorithm>
 #include <cmath>
-#include <numbers>
 
 namespace arcstart {
 namespace {
 
-// Half-widths of the windows in sigma, widest first. All but the last are parabolas.
-constexpr std::array<double, 4> kReach{15, 8, 4.5, 3};
-constexpr std::size_t kUsual = 1;  // whose median misfit is the usual one
-constexpr std::size_t kNarrow = 2;
-// Of noise alone: the median misfit of the usual windows to the lower quartile of the narrow ones'.
-constexpr double kNarrowToUsual = 3.3;
-constexpr double kMisfit = 1.7 * 1.7;  // times the usual one is still borne
-constexpr std::size_t kFewestPoints = 12;
-
-// A symmetric positive definite matrix taken apart (Cholesky).
-template <int kSize>
-struct Factors {
-  std::array<std::array<double, kSize>, kSize> lower{};
-  std::array<double, kSize> inverse{};  // of the diagonal
-
-  bool take_apart(const std::array<std::array<double, kSize>, kSize>& a) {
-    for (int i = 0; i < kSize; ++i)
-      for (int j = 0; j <= i; ++j) {
-        double sum = a[i][j];
-        for (int k = 0; k < j; ++k) sum -= lower[i][k] * lower[j][k];
-        if (i > j) {
-          lower[i][j] = sum * inverse[j];
-        } else {
-          if (!(sum > 1e-12)) return false;
-          lower[i][i] = std::sqrt(sum);
-          inverse[i] = 1 / lower[i][i];
-        }
-      }
-    return true;
-  }
-  void solve(std::array<double, kSize>& b) const {
-    for (int i = 0; i < kSize; ++i) {
-      for (int k = 0; k < i; ++k) b[i] -= lower[i][k] * b[k];
-      b[i] *= inverse[i];
-    }
-    for (int i = kSize - 1; i >= 0; --i) {
-      for (int k = i + 1; k < kSize; ++k) b[i] -= lower[k][i] * b[k];
-      b[i] *= inverse[i];
-    }
-  }
-};
-
-// A polynomial in x / reach about the point, and what it says there: its value moved back by the
-// bend, and that value's variance for independent points of variance 1.
-template <int kSize>
-struct Polynomial {
-  std::array<std::array<double, kSize>, kSize> normal{};
-  std::array<double, kSize> moments{}, coefficients{};
-  double value = 0, variance = 0;
-
-  bool fit(double reach, double sigma) {
-    Factors<kSize> factors;
-    if (!factors.take_apart(normal)) return false;
-    coefficients = moments;
-    factors.solve(coefficients);
-    const double slope = coefficients[1] / reach;
-    std::array<double, kSize> weights{};  // of the coefficients in the value
-    weights[0] = 1;
-    weights[2] = -sigma * sigma / (reach * reach) / (1 + slope * slope);
-    value = coefficients[0] + weights[2] * coefficients[2];
-    std::array<double, kSize> solved = weights;
-    factors.solve(solved);
-    variance = 0;
-    for (int i = 0; i < kSize; ++i) variance += weights[i] * solved[i];
-    return true;
-  }
-};
+constexpr int kFewestPoints = 12;
+// 1 / px: the bend that is nothing special. A pipe of 25 mm seen at 0.1 mm / px has 0.004.
+constexpr double kUsualBend = 0.006;
+constexpr double kFirstBend = 0.1;  // 1 / px, in the first round: no corner is smoothed away
+constexpr int kRounds = 7;
+// So many points count for one, times sigma. White noise has 2 sqrt(pi) in the middle of a long way
+// and less at its ends and at corners.
+constexpr double kPointsForOne = 2.5;
 
 }  // namespace
 
-void BranchCourse::add_up(const std::vector<CoursePoint>& points) {
-  // About the branch's middle, so that differences of sums keep their digits.
-  origin_along_ = 0.5 * (points.front().along + points.back().along);
-  origin_across_ = 0.5 * (points.front().across + points.back().across);
-  sums_.resize(points.size() + 1);
-  sums_[0] = {};
-  for (std::size_t i = 0; i < points.size(); ++i) {
-    Sums& sums = sums_[i + 1];
-    sums = sums_[i];
-    if (points[i].at_border) continue;
-    const double x = points[i].along - origin_along_, y = points[i].across - origin_across_;
-    double power = 1;
-    for (std::size_t k = 0; k < sums.x.size(); ++k, power *= x) {
-      sums.x[k] += power;
-      if (k < sums.xy.size()) sums.xy[k] += power * y;
-    }
-    sums.yy += y * y;
-    sums.variance += points[i].deviation * points[i].deviation;
+std::size_t BranchCourse::station_of(const CoursePoint& point) const {
+  const long at = std::lround(point.along - origin_along_);
+  return static_cast<std::size_t>(std::clamp(at, 0L, static_cast<long>(stations_.size()) - 1));
+}
+
+double BranchCourse::slope_at(std::size_t at) const {
+  const std::size_t before = at > 0 ? at - 1 : 0, after = std::min(at + 1, stations_.size() - 1);
+  return (stations_[after].line - stations_[before].line) / static_cast<double>(after - before);
+}
+
+// The centres, moved along the line found so far to the whole px.
+void BranchCourse::observe(const std::vector<CoursePoint>& points, double sigma) {
+  for (const CoursePoint& point : points) {
+    if (point.at_border) continue;
+    const std::size_t at = station_of(point);
+    const double slope = slope_at(at);
+    const double ahead = origin_along_ + static_cast<double>(at) - point.along;
+    Station& station = stations_[at];
+    station.value = point.across - origin_across_ + slope * ahead;
+    station.weight = 1 / (point.deviation * point.deviation * kPointsForOne * sigma);
+    station.bow = sigma * sigma / 2 / (1 + slope * slope);
   }
 }
 
-BranchCourse::Fit BranchCourse::fit_parabola(const std::vector<CoursePoint>& points, std::size_t at,
-                                             double reach, Window& window) const {
-  const double here = points[at].along;
-  while (points[window.begin].along < here - reach) ++window.begin;
-  while (window.end < points.size() && points[window.end].along < here + reach) ++window.end;
-  const Sums &low = sums_[window.begin], &high = sums_[window.end];
-  const double count = high.x[0] - low.x[0];
-  if (count < 8) return {};
-  // Sums of powers of (x - shift) / reach, from those of x.
-  const double shift = here - origin_along_;
-  std::array<double, 5> x{};
-  std::array<double, 3> xy{};
-  constexpr int kBinomial[5][5] = {{1}, {1, 1}, {1, 2, 1}, {1, 3, 3, 1}, {1, 4, 6, 4, 1}};
-  double scale = 1;
-  for (int k = 0; k < 5; ++k, scale /= reach) {
-    double power = 1;
-    for (int j = k; j >= 0; --j, power *= -shift) {
-      x[k] += kBinomial[k][j] * power * (high.x[j] - low.x[j]) * scale;
-      if (k < 3) xy[k] += kBinomial[k][j] * power * (high.xy[j] - low.xy[j]) * scale;
-    }
+// Normal equations of both sums, the right side in line.
+void BranchCourse::set_up() {
+  const std::size_t last = stations_.size() - 1;
+  for (Station& s : stations_) s.diagonal = s.next = s.after_next = s.line = 0;
+  for (const std::size_t end : {std::size_t{0}, last}) {
+    stations_[end].diagonal = stations_[end].weight;
+    stations_[end].line = stations_[end].weight * stations_[end].value;
   }
-  Polynomial<3> parabola;
-  for (int i = 0; i < 3; ++i) {
-    for (int j = 0; j < 3; ++j) parabola.normal[i][j] = x[i + j];
-    parabola.moments[i] = xy[i];
+  for (std::size_t k = 1; k < last; ++k) {
+    Station &a = stations_[k - 1], &b = stations_[k], &c = stations_[k + 1];
+    const double side = b.bow, middle = 1 - 2 * side;
+    const double outer = b.weight * side * side + b.stiffness;
+    const double inner = b.weight * side * middle - 2 * b.stiffness;
+    a.diagonal += outer;
+    b.diagonal += b.weight * middle * middle + 4 * b.stiffness;
+    c.diagonal += outer;
+    a.next += inner;
+    b.next += inner;
+    a.after_next += outer;
+    const double pull = b.weight * b.value;
+    a.line += side * pull;
+    b.line += middle * pull;
+    c.line += side * pull;
   }
-  if (!parabola.fit(reach, sigma_)) return {};
-  double squares = high.yy - low.yy;
-  for (int i = 0; i < 3; ++i) squares -= parabola.coefficients[i] * xy[i];
-  const double variance = (high.variance - low.variance) / count;
-  return {origin_across_ + parabola.value, std::sqrt(parabola.variance),
-          std::max(0.0, squares) / (count - 3) / variance, true};
 }
 
-BranchCourse::Fit BranchCourse::fit_quartic(const std::vector<CoursePoint>& points, std::size_t at,
-                                            double reach) const {
-  Polynomial<5> quartic;
-  std::array<double, 9> x{};
-  std::size_t begin = at, end = at;
-  while (begin > 0 && points[at].along - points[begin - 1].along <= reach) --begin;
-  while (end < points.size() && points[end].along - points[at].along <= reach) ++end;
-  for (std::size_t i = begin; i < end; ++i) {
-    if (points[i].at_border) continue;
-    const double t = (points[i].along - points[at].along) / reach,
-                 y = points[i].across - origin_across_;
-    double power = 1;
-    for (std::size_t k = 0; k < x.size(); ++k, power *= t) {
-      x[k] += power;
-      if (k < 5) quartic.moments[k] += power * y;
-    }
+// L D L^T, in place. False: the centres leave the line open.
+bool BranchCourse::solve() {
+  const std::size_t size = stations_.size();
+  for (std::size_t k = 0; k < size; ++k) {
+    Station& here = stations_[k];
+    if (!(here.diagonal > 0)) return false;
+    const double inverse = 1 / here.diagonal, next = here.next, after_next = here.after_next;
+    here.diagonal = inverse;
+    here.next = next * inverse;
+    here.after_next = after_next * inverse;
+    if (k + 1 == size) break;
+    stations_[k + 1].diagonal -= here.next * next;
+    stations_[k + 1].next -= here.next * after_next;
+    stations_[k + 1].line -= here.next * here.line;
+    if (k + 2 == size) continue;
+    stations_[k + 2].diagonal -= here.after_next * after_next;
+    stations_[k + 2].line -= here.after_next * here.line;
   }
-  if (x[0] < 8) return {};
-  for (std::size_t i = 0; i < 5; ++i)
-    for (std::size_t j = 0; j < 5; ++j) quartic.normal[i][j] = x[i + j];
-  if (!quartic.fit(reach, sigma_)) return {};
-  return {origin_across_ + quartic.value, std::sqrt(quartic.variance), 0, true};
+  double next = 0, after_next = 0;
+  for (std::size_t k = size; k-- > 0;) {
+    Station& here = stations_[k];
+    here.line = here.line * here.diagonal - here.next * next - here.after_next * after_next;
+    after_next = next;
+    next = here.line;
+  }
+  return true;
+}
+
+// The weight of y''^2 that has the Cauchy density's slope at the bends found.
+void BranchCourse::stiffen(int reach) {
+  const int last = static_cast<int>(stations_.size()) - 1;
+  squares_.assign(stations_.size() + 1, 0);
+  for (int k = 1; k <= last; ++k) {
+    const double bend =
+        k < last ? stations_[k - 1].line - 2 * stations_[k].line + stations_[k + 1].line : 0;
+    squares_[k + 1] = squares_[k] + bend * bend;
+  }
+  for (int k = 1; k < last; ++k) {
+    const int begin = std::max(1, k - reach), end = std::min(last, k + reach + 1);
+    const double mean = (squares_[end] - squares_[begin]) / (end - begin);
+    stations_[k].stiffness = 2 / (kUsualBend * kUsualBend + mean);
+  }
+}
+
+// Diagonal of the inverse, from the factors backwards (Takahashi).
+void BranchCourse::find_deviations() {
+  double z11 = 0, z12 = 0, z22 = 0;  // of the next two stations
+  for (std::size_t k = stations_.size(); k-- > 0;) {
+    Station& here = stations_[k];
+    const double z01 = -here.next * z11 - here.after_next * z12,
+                 z02 = -here.next * z12 - here.after_next * z22;
+    const double z00 = here.diagonal - here.next * z01 - here.after_next * z02;
+    here.deviation = std::sqrt(z00);
+    z22 = z11;
+    z12 = z01;
+    z11 = z00;
+  }
 }
 
 void BranchCourse::smooth(std::vector<CoursePoint>& points, double sigma) {
-  smoothed_ = points;
-  for (CoursePoint& point : smoothed_)
-    if (point.at_border) point.deviation = 0;
-  if (points.size() >= kFewestPoints) fit_all(points, sigma);
-  std::swap(points, smoothed_);
-}
-
-void BranchCourse::fit_all(const std::vector<CoursePoint>& points, double sigma) {
-  sigma_ = sigma;
-  add_up(points);
-  misfits_.clear();
-  usual_.clear();
-  std::array<Window, kReach.size()> windows;
-  for (std::size_t i = 0; i < points.size(); ++i) {
-    usual_.push_back(fit_parabola(points, i, kReach[kUsual] * sigma, windows[kUsual]));
-    if (usual_.back().valid) misfits_.push_back(usual_.back().misfit);
+  const auto fitted = std::count_if(points.begin(), points.end(),
+                                    [](const CoursePoint& point) { return !point.at_border; });
+  const auto give_up = [&] {
+    for (CoursePoint& point : points)
+      if (point.at_border) point.deviation = 0;
+  };
+  if (fitted < kFewestPoints) return give_up();
+  origin_along_ = std::round(points.front().along);
+  origin_across_ = points[points.size() / 2].across;
+  const auto length = std::lround(points.back().along - origin_along_);
+  stations_.assign(static_cast<std::size_t>(std::max(length, 2L)) + 1, {});
+  for (Station& station : stations_) station.stiffness = 2 / (kFirstBend * kFirstBend);
+  for (int round = 0; round < kRounds; ++round) {
+    observe(points, sigma);
+    if (round > 0) stiffen(static_cast<int>(std::lround(sigma)));
+    set_up();
+    if (!solve()) return give_up();
   }
-  if (misfits_.empty()) return;
-  const auto middle = misfits_.begin() + static_cast<std::ptrdiff_t>(misfits_.size() / 2);
-  std::nth_element(misfits_.begin(), middle, misfits_.end());
-  double usual = *middle;
-  // Where most of the stripe is rough, the roughness is no measure of the noise: what the smoother
-  // places leave of narrower windows is.
-  misfits_.clear();
-  Window narrow;
-  for (std::size_t i = 0; i < points.size(); i += 4)
-    if (const Fit fit = fit_parabola(points, i, kReach[kNarrow] * sigma, narrow); fit.valid)
-      misfits_.push_back(fit.misfit);
-  const auto quartile = misfits_.begin() + static_cast<std::ptrdiff_t>(misfits_.size() / 4);
-  std::nth_element(misfits_.begin(), quartile, misfits_.end());
-  if (quartile != misfits_.end()) usual = std::min(usual, kNarrowToUsual * *quartile);
-  const double most = kMisfit * usual;
-
-  // Errors of neighbours hang together over what the kernels span, exp(-d^2 / 4 sigma^2): so many
-  // points count for one.
-  const double points_for_one = 2 * std::sqrt(std::numbers::pi) * sigma;
-  for (std::size_t i = 0; i < points.size(); ++i) {
-    // Beyond the last point fitted to, a quartic goes anywhere.
-    const std::size_t levels = points[i].at_border ? kReach.size() - 1 : kReach.size();
-    Fit fit{};
-    for (std::size_t level = 0; level < levels; ++level) {
-      const bool last = level + 1 == levels;
-      const Fit wide = fit;
-      fit = level == kUsual ? usual_[i]
-            : level + 1 == kReach.size()
-                ? fit_quartic(points, i, kReach[level] * sigma)
-                : fit_parabola(points, i, kReach[level] * sigma, windows[level]);
-      if (!fit.valid && points[i].at_border) fit = wide;
-      if (fit.valid && (last || fit.misfit <= most)) break;
-    }
-    if (!fit.valid) continue;
-    smoothed_[i].across = fit.value;
-    smoothed_[i].deviation =
-        points[i].deviation *
-        std::min(points[i].at_border ? 3.0 : 1.0, fit.deviation * std::sqrt(points_for_one));
+  find_deviations();
+  for (CoursePoint& point : points) {
+    const std::size_t at = station_of(point);
+    const double ahead = point.along - origin_along_ - static_cast<double>(at);
+    point.across = origin_across_ + stations_[at].line + slope_at(at) * ahead;
+    point.deviation = stations_[at].deviation;
   }
 }
 

@@ -1,8 +1,7 @@
-// The course of a branch: its centres smoothed along the stripe where it runs smoothly, and what
-// the kernels have cut off its corners put back.
+// The course of a branch: the most likely line through its centres, with what the kernels have cut
+// off its corners put back.
 #pragma once
 
-#include <array>
 #include <vector>
 
 namespace arcstart {
@@ -13,46 +12,46 @@ struct CoursePoint {
   bool at_border;        // so near that the mirrored image bends the line: not to be fitted to
 };
 
-// A Gaussian of sigma moves the crest of a curved stripe to the inner side by sigma^2/2 times its
-// curvature (the heat flow of the curve), which rounds a corner: the fit's own curvature tells by
-// how much, and it is moved back.
+// y(x), known at whole px x, is the line for which
+//     sum_i (c_i - (y + b y'')(x_i))^2 / v_i  +  2 sum_x log(s^2 + m(y''^2)(x))
+// is least. c_i are the centres as found and v_i their variances, times the points for one: errors
+// of neighbours hang together over what the kernels span. b y'' is what a Gaussian of sigma moves
+// the crest of a curved stripe to the inner side, sigma^2/2 times its curvature (the heat flow of
+// the curve), so that y is the line before that. The second sum is the logarithm of a Cauchy
+// density of the bend: surfaces are flat or gently bent (s), but for edges, which may be anything;
+// m is the mean over +- sigma, since no kernel shows an edge sharper than that. So faint and rough
+// stripes are smoothed over long ways, strong ones hardly, and corners stay. Nothing is put where
+// no point is.
 //
-// The fits are polynomials over a window about the point, the widest of four that says nothing that
-// the points do not bear: the residuals, in units of the points' deviations, are no more than
-// usual in the branch. The widest ones take the grain of speckle out, the narrowest follows a
-// corner. Nothing is put where no point is.
+// It is found by reweighting: each round solves a system of five diagonals.
 class BranchCourse {
  public:
-  // points by their place along. Replaces across and deviation; deviation 0: the point lies at the
-  // border, and where it truly is the others do not tell. A short branch's others are left alone.
+  // points by their place along, at most one a column (row). Replaces across and deviation;
+  // deviation 0: the point lies at the border, and where it truly is the others do not tell. A
+  // short branch's others are left alone.
   void smooth(std::vector<CoursePoint>& points, double sigma);
 
  private:
-  struct Sums {  // of points 0 .. i-1
-    std::array<double, 5> x;
-    std::array<double, 3> xy;
-    double yy, variance;
+  struct Station {
+    double value = 0, weight = 0;  // of the centre there, px and 1 / px^2; weight 0: none
+    double bow = 0;                // b; px^2
+    double line = 0;               // y; px
+    double stiffness = 0;          // weight of y''^2; px^2
+    double deviation = 0;          // of y; px
+    // The system's three upper diagonals, then its factors: 1 / D and L of L D L^T.
+    double diagonal = 0, next = 0, after_next = 0;
   };
-  struct Fit {
-    double value, deviation;  // corrected for the bend; px, of independent points of deviation 1
-    double misfit;            // mean square of the residuals, in units of the points' variance
-    bool valid;
-  };
-  void fit_all(const std::vector<CoursePoint>& points, double sigma);
-  void add_up(const std::vector<CoursePoint>& points);
-  struct Window {
-    std::size_t begin = 0, end = 0;
-  };
-  // window: of the point before, if any.
-  Fit fit_parabola(const std::vector<CoursePoint>& points, std::size_t at, double reach,
-                   Window& window) const;
-  Fit fit_quartic(const std::vector<CoursePoint>& points, std::size_t at, double reach) const;
+  std::size_t station_of(const CoursePoint& point) const;
+  double slope_at(std::size_t at) const;
+  void observe(const std::vector<CoursePoint>& points, double sigma);
+  void set_up();
+  bool solve();
+  void stiffen(int reach);
+  void find_deviations();
 
-  double sigma_ = 0, origin_along_ = 0, origin_across_ = 0;
-  std::vector<Sums> sums_;
-  std::vector<Fit> usual_;
-  std::vector<double> misfits_;
-  std::vector<CoursePoint> smoothed_;
+  double origin_along_ = 0, origin_across_ = 0;
+  std::vector<Station> stations_;  // one a px along
+  std::vector<double> squares_;    // sums of y''^2 up to each station
 };
 
 }  // namespace arcstart

@@ -108,12 +108,16 @@ void StripeExtractor::follow_scale() {
   if (const double wanted = wanted_sigma(); wanted > 0) sigma_ += kFollowing * (wanted - sigma_);
 }
 
-// The law knows white noise alone; speckle and the surface's grain usually scatter the centres
-// more. By how many times: from the distances of centres from the chord between two farther along,
-// at which their errors no longer hang together.
-double StripeExtractor::scatter_factor(double sigma) {
+// The law knows white noise alone; the surface's grain scatters the centres more, the fainter the
+// stripe, and speckle does whatever its strength. By how much: from the distances of centres from
+// the chord between two farther along, at which their errors no longer hang together; those of the
+// stronger half and of the fainter half of the centres tell both parts.
+StripeExtractor::Scatter StripeExtractor::scatter(double sigma) {
   const auto lag = static_cast<std::size_t>(std::max(6.0, std::ceil(4 * sigma)));
-  FrameVector<float> ratios(&memory_);
+  struct Sample {
+    float law, square;  // variance by the law and as seen; px^2
+  };
+  FrameVector<Sample> samples(&memory_);
   for (const Branch& branch : selection_.branches) {
     if (!branch.chosen) continue;
     for (std::size_t i = lag; i + lag < branch.points.size(); ++i) {
@@ -121,25 +125,46 @@ double StripeExtractor::scatter_factor(double sigma) {
                        &b = points_[branch.points[i + lag]];
       const double du = b.u - a.u, dv = b.v - a.v, length = std::hypot(du, dv);
       if (length == 0) continue;
-      const double distance = std::abs((p.u - a.u) * dv - (p.v - a.v) * du) / length;
+      const double distance = ((p.u - a.u) * dv - (p.v - a.v) * du) / length;
       const double law = centre_deviation(p.curvature, sigma, noise_);
-      ratios.push_back(
-          static_cast<float>(distance / (law * std::sqrt(1.5))));  // variance 1 + 1/4 + 1/4
+      samples.push_back({static_cast<float>(law * law),
+                         static_cast<float>(distance * distance / 1.5)});  // 1 + 1/4 + 1/4
     }
   }
-  if (ratios.size() < 20) return 1;
-  return std::max(1.0, median(ratios) / 0.6745);
+  if (samples.size() < 40) return {};
+  const auto middle = samples.begin() + static_cast<std::ptrdiff_t>(samples.size() / 2);
+  std::nth_element(samples.begin(), middle, samples.end(),
+                   [](const Sample& a, const Sample& b) { return a.law < b.law; });
+  // Median of a square is 0.4549 of its mean, for a normal error.
+  const auto half = [](auto begin, auto end) {
+    const auto at = begin + (end - begin) / 2;
+    std::nth_element(begin, at, end,
+                     [](const Sample& a, const Sample& b) { return a.law < b.law; });
+    const double law = at->law;
+    std::nth_element(begin, at, end,
+                     [](const Sample& a, const Sample& b) { return a.square < b.square; });
+    return std::pair(law, at->square / 0.4549);
+  };
+  const auto [strong_law, strong_square] = half(samples.begin(), middle);
+  const auto [faint_law, faint_square] = half(middle, samples.end());
+  double per_law = (faint_square - strong_square) / (faint_law - strong_law);
+  if (!(per_law < strong_square / strong_law))  // all of it grows with the law
+    return {0, std::max(1.0, (strong_square + faint_square) / (strong_law + faint_law))};
+  per_law = std::max(per_law, 1.0);
+  return {std::max(0.0, (strong_square + faint_square - per_law * (strong_law + faint_law)) / 2),
+          per_law};
 }
 
-void StripeExtractor::set_out(const GreyImage& image, const Branch& branch, double scatter) {
+void StripeExtractor::set_out(const GreyImage& image, const Branch& branch,
+                              const Scatter& scatter) {
   const int margin = RidgeDetector::margin(kernels_);
   course_points_.clear();
   for (const int i : branch.points) {
     const RidgePoint& p = points_[i];
     const bool at_border =
         std::min({p.column, p.row, image.width - 1 - p.column, image.height - 1 - p.row}) < margin;
-    CoursePoint point{p.u, p.v, scatter * centre_deviation(p.curvature, used_sigma_, noise_),
-                      at_border};
+    const double law = centre_deviation(p.curvature, used_sigma_, noise_);
+    CoursePoint point{p.u, p.v, std::sqrt(scatter.base + scatter.per_law * law * law), at_border};
     if (selection_.along_rows) std::swap(point.along, point.across);
     course_points_.push_back(point);
   }
@@ -151,12 +176,12 @@ void StripeExtractor::describe(const GreyImage& image, Stripe& stripe) {
   stripe.sigma = static_cast<float>(used_sigma_);
   stripe.noise = static_cast<float>(noise_);
   const double factor = strength_factor(used_sigma_, settings_.strength_exponent);
-  const double scatter = scatter_factor(used_sigma_);
+  const Scatter found = scatter(used_sigma_);
   int chosen = 0, saturated = 0;
   for (std::size_t b = 0; b < selection_.branches.size(); ++b) {
     const Branch& branch = selection_.branches[b];
     const BranchEnds ends = branch_ends(image, points_, selection_, b, used_sigma_, border());
-    set_out(image, branch, scatter);
+    set_out(image, branch, found);
     const std::size_t first = stripe.centres.size();
     for (std::size_t i = 0; i < branch.points.size(); ++i) {
       const RidgePoint& p = points_[branch.points[i]];

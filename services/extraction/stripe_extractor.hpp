@@ -49,14 +49,19 @@ class StripeExtractor {
   double active_share() const { return detector_.active_share(); }  // of the last image's blocks
 
  private:
+  // A centre's variance: base + per_law x that of white noise.
+  struct Scatter {
+    double base = 0;  // px^2
+    double per_law = 1;
+  };
   void look_at(const GreyImage& image, double sigma);
   void find_scale(const GreyImage& image);
   void follow_scale();
   double chosen_strength() const;
   double wanted_sigma();  // from the widths seen; px, 0 where too few
-  double scatter_factor(double sigma);
+  Scatter scatter(double sigma);
   int border() const;  // px, in which nothing is looked for
-  void set_out(const GreyImage& image, const Branch& branch, double scatter);
+  void set_out(const GreyImage& image, const Branch& branch, const Scatter& scatter);
   void describe(const GreyImage& image, Stripe& stripe);
 
   ExtractionSettings settings_;

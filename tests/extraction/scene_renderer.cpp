@@ -154,11 +154,11 @@ class Renderer {
   void add_surroundings(cv::Mat& light) {
     cv::Mat halo;
     cv::GaussianBlur(light, halo, {}, 12);
-    light += 0.35 * halo + 2 * grain(3);
+    light += settings_.halo * halo + settings_.texture * grain(3);
     for (int row = 0; row < light.rows; ++row) light.row(row) += 12.0 * row / light.rows;
     cv::Mat scratches = cv::Mat::zeros(light.size(), CV_32F);
     for (int i = 0; i < 60; ++i) streak(scratches, uniform(30, 150), uniform(4, 12), 1);
-    light += scratches;
+    if (settings_.scratches) light += scratches;
   }
 
   // A straight bright line with soft sides.

@@ -24,7 +24,10 @@ struct StripeSceneSettings {
   double read_noise = 1.5;  // grey values
   double electrons_per_grey = 39;  // of which shot noise follows; 0: none
   int gaps = 0;                    // of 16 to 66 px
-  bool surroundings = false;       // halo, texture, gradient, scratches
+  bool surroundings = false;       // halo, texture, a gradient of 12 grey values, 60 scratches:
+  double halo = 0.35;              // share of the stripe's light, blurred with sigma 12 px
+  double texture = 2;              // standard deviation, of a grain of sigma 3 px; grey values
+  bool scratches = true;           // of 4 to 12 grey values
   int blobs = 0;                   // of sigma 3 to 15 by 3 to 11 px, 60 to 260 grey values
   bool ghost = false;  // 45 to 95 px beside the stripe, 150 to 300 px long, 0.35 of its brightness
   bool arc = false;    // glare with rays, and spatter

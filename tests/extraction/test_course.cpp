@@ -85,6 +85,35 @@ TEST_CASE("what the kernels cut off a rounded corner is put back") {
   CHECK(rms_from(points, corner, 20, 110) < 0.01);
 }
 
+TEST_CASE("how far a line is smoothed follows from what its centres are worth") {
+  // A bend that comes and goes over 40 px.
+  const auto wave = [](double x) { return 30 + 0.6 * std::sin(x / 6); };
+  const auto flattened = [&](double deviation) {
+    auto points = crest(wave, 300, 0.001);
+    for (CoursePoint& point : points) point.deviation = deviation;
+    BranchCourse().smooth(points, kSigma);
+    return rms_from(points, wave, 40, 260);
+  };
+  CHECK(flattened(0.005) < 0.02);
+  CHECK(flattened(2) > 0.3);
+  // The fainter half of a line tells less than the other.
+  auto points = crest([](double) { return 30.0; }, 300, 0.05);
+  for (int i = 150; i < 300; ++i) points[i].deviation *= 4;
+  BranchCourse().smooth(points, kSigma);
+  CHECK(points[220].deviation > 1.5 * points[80].deviation);
+}
+
+TEST_CASE("a corner is kept in noise that hides a bend") {
+  const auto corner = [](double x) { return 50 + 0.8 * std::abs(x - 150); };
+  double squares = 0;
+  for (int seed = 1; seed <= 10; ++seed) {
+    auto points = crest(corner, 300, 0.3, seed);
+    BranchCourse().smooth(points, kSigma);
+    squares += std::pow(rms_from(points, corner, 156, 180), 2) / 10;
+  }
+  CHECK(std::sqrt(squares) < 0.2);
+}
+
 TEST_CASE("points at the border are replaced by what the others say, or given up") {
   const auto line = [](double x) { return 10 + 0.5 * x; };
   auto points = crest(line, 100, 0.02);
