@@ -22,7 +22,7 @@ std::vector<Centre> chosen_centres(const Stripe& stripe) {
 }
 
 void print(const std::string& what, const StripeSceneScore& score) {
-  fmt::print("{:<38} {:8.4f} {:8.4f} {:8.2f} {:8.2f} {:8}\n", what, score.rms(), score.p95(),
+  fmt::print("{:<44} {:8.4f} {:8.4f} {:8.2f} {:8.2f} {:8}\n", what, score.rms(), score.p95(),
              100 * score.recall(), 100 * score.false_share(), score.centres);
   std::fflush(stdout);
 }
@@ -41,7 +41,7 @@ double least_curvature(double sigma) {
 }
 
 void print_head(const std::string& title) {
-  fmt::print("\n{}\n{:<38} {:>8} {:>8} {:>8} {:>8} {:>8}\n", title, "", "rms px", "95 % px",
+  fmt::print("\n{}\n{:<44} {:>8} {:>8} {:>8} {:>8} {:>8}\n", title, "", "rms px", "95 % px",
              "recall %", "false %", "centres");
 }
 
@@ -104,10 +104,44 @@ void bench_accuracy(int seeds, nlohmann::json& json) {
     }
     if (kind == StripeSceneKind::kClean) {
       json["clean.law_px"] = law_sum / seeds;
-      fmt::print("{:<38} {:8.4f}  (1.15 x law + 0.003: {:.4f})\n", "law of noise", law_sum / seeds,
+      fmt::print("{:<44} {:8.4f}  (1.15 x law + 0.003: {:.4f})\n", "law of noise", law_sum / seeds,
                  1.15 * law_sum / seeds + 0.003);
     }
   }
+}
+
+void bench_disturbances(int seeds, nlohmann::json& json) {
+  struct Without {
+    const char* what;
+    void (*change)(StripeSceneSettings&);
+  };
+  const Without without[] = {
+      {"nothing", [](StripeSceneSettings&) {}},
+      {"read_noise", [](StripeSceneSettings& s) { s.read_noise = 0; }},
+      {"shot_noise", [](StripeSceneSettings& s) { s.electrons_per_grey = 0; }},
+      {"speckle", [](StripeSceneSettings& s) { s.speckle = 0; }},
+      {"texture", [](StripeSceneSettings& s) { s.texture = 0; }},
+      {"scratches", [](StripeSceneSettings& s) { s.scratches = false; }},
+      {"halo", [](StripeSceneSettings& s) { s.halo = 0; }}};
+  print_head("Low contrast without one of its disturbances, the same seeds");
+  for (const double sigma : {0.0, 2.5, 3.5, 5.0})
+    for (const Without& one : without) {
+      StripeSceneSettings settings = stripe_scene_settings(StripeSceneKind::kLowContrast);
+      one.change(settings);
+      ExtractionSettings extraction;
+      extraction.sigma_px = sigma;
+      StripeSceneScore total;
+      for (int seed = 1; seed <= seeds; ++seed) {
+        const StripeScene scene = render_stripe_scene(settings, static_cast<std::uint64_t>(seed));
+        total.add(
+            score(scene, chosen_centres(StripeExtractor(extraction).extract(view_of(scene.grey)))));
+      }
+      const std::string row =
+          fmt::format("low_contrast.sigma_{}.without_{}",
+                      sigma == 0 ? "followed" : fmt::format("{}", sigma), one.what);
+      print(row, total);
+      record(row, total, json);
+    }
 }
 
 void bench_white_noise(int seeds, nlohmann::json& json) {
@@ -128,7 +162,7 @@ void bench_white_noise(int seeds, nlohmann::json& json) {
       const double expected = law(settings, sigma);
       const std::string row = fmt::format("white_noise.sigma_{}_ratio_{}", sigma, ratio);
       print(row, total);
-      fmt::print("{:<38} {:8.4f}  (1.15 x law + 0.003: {:.4f})\n", "  law", expected,
+      fmt::print("{:<44} {:8.4f}  (1.15 x law + 0.003: {:.4f})\n", "  law", expected,
                  1.15 * expected + 0.003);
       record(row, total, json);
       json[row + ".law_px"] = expected;

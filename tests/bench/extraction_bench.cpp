@@ -19,8 +19,10 @@ int main(int argc, char** argv) {
   options.add_option("--seeds", seeds, "Of each scene, 1 to N, none left out")
       ->capture_default_str();
   options.add_option("--rounds", rounds, "Of the timing")->capture_default_str();
-  options.add_option("--part", parts, "accuracy, noise, real, identity or speed; all by default")
-      ->check(CLI::IsMember({"accuracy", "noise", "real", "identity", "speed"}));
+  options
+      .add_option("--part", parts,
+                  "accuracy, disturbances, noise, real, identity or speed; all by default")
+      ->check(CLI::IsMember({"accuracy", "disturbances", "noise", "real", "identity", "speed"}));
   std::string pictures;
   options.add_option("--pictures", pictures, "Draw the scenes into this folder, measure nothing")
       ->check(CLI::ExistingDirectory);
@@ -38,6 +40,7 @@ int main(int argc, char** argv) {
   if (wanted("identity")) bench_identity(seeds, json);
   if (wanted("noise")) bench_white_noise(seeds, json);
   if (wanted("real")) bench_real_images(json);
+  if (wanted("disturbances")) bench_disturbances(seeds, json);
   if (wanted("accuracy")) bench_accuracy(seeds, json);
   if (!json_path.empty() && !(std::ofstream(json_path) << json.dump(2) << '\n')) {
     fmt::print(stderr, "bench_extraction: {} cannot be written\n", json_path);

@@ -10,6 +10,9 @@ namespace arcstart {
 // it, beside the plain ridge detector and the usual one-centre-a-column methods.
 void bench_accuracy(int seeds, nlohmann::json& json);
 
+// Low contrast with one disturbance of the scene left out: which makes the error, at which sigma.
+void bench_disturbances(int seeds, nlohmann::json& json);
+
 // Straight parts under white noise alone, beside the law of centre_deviation.
 void bench_white_noise(int seeds, nlohmann::json& json);
 
