@@ -28,7 +28,7 @@ double BranchCourse::slope_at(std::size_t at) const {
 }
 
 // The centres, moved along the line found so far to the whole px.
-void BranchCourse::observe(const std::vector<CoursePoint>& points, double sigma) {
+void BranchCourse::observe(const std::vector<CoursePoint>& points) {
   for (const CoursePoint& point : points) {
     if (point.at_border) continue;
     const std::size_t at = station_of(point);
@@ -36,8 +36,8 @@ void BranchCourse::observe(const std::vector<CoursePoint>& points, double sigma)
     const double ahead = origin_along_ + static_cast<double>(at) - point.along;
     Station& station = stations_[at];
     station.value = point.across - origin_across_ + slope * ahead;
-    station.weight = 1 / (point.deviation * point.deviation * kPointsForOne * sigma);
-    station.bow = sigma * sigma / 2 / (1 + slope * slope);
+    station.weight = 1 / (point.deviation * point.deviation * kPointsForOne * point.sigma);
+    station.bow = point.sigma * point.sigma / 2 / (1 + slope * slope);
   }
 }
 
@@ -126,7 +126,7 @@ void BranchCourse::find_deviations() {
   }
 }
 
-void BranchCourse::smooth(std::vector<CoursePoint>& points, double sigma) {
+void BranchCourse::smooth(std::vector<CoursePoint>& points) {
   const auto fitted = std::count_if(points.begin(), points.end(),
                                     [](const CoursePoint& point) { return !point.at_border; });
   const auto give_up = [&] {
@@ -140,8 +140,8 @@ void BranchCourse::smooth(std::vector<CoursePoint>& points, double sigma) {
   stations_.assign(static_cast<std::size_t>(std::max(length, 2L)) + 1, {});
   for (Station& station : stations_) station.stiffness = 2 / (kFirstBend * kFirstBend);
   for (int round = 0; round < kRounds; ++round) {
-    observe(points, sigma);
-    if (round > 0) stiffen(static_cast<int>(std::lround(sigma)));
+    observe(points);
+    if (round > 0) stiffen(static_cast<int>(std::lround(points[points.size() / 2].sigma)));
     set_up();
     if (!solve()) return give_up();
   }

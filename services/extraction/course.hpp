@@ -9,6 +9,7 @@ namespace arcstart {
 struct CoursePoint {
   double along, across;  // px, along and across the image's main direction of the stripe
   double deviation;      // standard deviation of the centre as found; px
+  double sigma;          // of the kernels that found it; px
   bool at_border;        // so near that the mirrored image bends the line: not to be fitted to
 };
 
@@ -29,7 +30,7 @@ class BranchCourse {
   // points by their place along, at most one a column (row). Replaces across and deviation;
   // deviation 0: the point lies at the border, and where it truly is the others do not tell. A
   // short branch's others are left alone.
-  void smooth(std::vector<CoursePoint>& points, double sigma);
+  void smooth(std::vector<CoursePoint>& points);
 
  private:
   struct Station {
@@ -43,7 +44,7 @@ class BranchCourse {
   };
   std::size_t station_of(const CoursePoint& point) const;
   double slope_at(std::size_t at) const;
-  void observe(const std::vector<CoursePoint>& points, double sigma);
+  void observe(const std::vector<CoursePoint>& points);
   void set_up();
   bool solve();
   void stiffen(int reach);

@@ -30,11 +30,7 @@ void RidgeDetector::detect_lines(const GreyImage& image, const GaussianKernels& 
   active_share_ = 0;
   if (std::min(image.width, image.height) <= 2 * kernels.half_width + 1) return;
   rejection_.mark(image, kernels, strong_curvature);
-  smooth_.assign(kernels.smooth.begin(), kernels.smooth.end());
-  first_.assign(kernels.first.begin(), kernels.first.end());
-  second_.assign(kernels.second.begin(), kernels.second.end());
-  work_.resize(ridge_tile_work(kernels.half_width));
-  found_.clear();
+  use(kernels);
 
   const int columns = rejection_.columns(), rows = rejection_.rows();
   wanted_.clear();
@@ -48,11 +44,35 @@ void RidgeDetector::detect_lines(const GreyImage& image, const GaussianKernels& 
     const std::size_t before = found_.size();
     look_at_wanted(image, kernels, static_cast<float>(least_curvature), border);
     wanted_.clear();
-    if (least_curvature < strong_curvature) want_what_lines_lead_to(before, image);
+    if (least_curvature < strong_curvature)
+      for (std::size_t i = before; i < found_.size(); ++i) want_about(found_[i], kLineReach, image);
     std::sort(wanted_.begin(), wanted_.end());
   }
   active_share_ = static_cast<double>(looked_at) / static_cast<double>(is_wanted_.size());
   collect_in_raster_order(image.height, points);
+}
+
+void RidgeDetector::detect_about(const GreyImage& image, const GaussianKernels& kernels,
+                                 double least_curvature, int border,
+                                 const std::vector<RidgePoint>& about, int reach,
+                                 std::vector<RidgePoint>& points) {
+  points.clear();
+  if (std::min(image.width, image.height) <= 2 * kernels.half_width + 1) return;
+  use(kernels);
+  wanted_.clear();
+  is_wanted_.assign(static_cast<std::size_t>(rejection_.columns()) * rejection_.rows(), 0);
+  for (const RidgePoint& point : about) want_about(point, reach, image);
+  std::sort(wanted_.begin(), wanted_.end());
+  look_at_wanted(image, kernels, static_cast<float>(least_curvature), border);
+  collect_in_raster_order(image.height, points);
+}
+
+void RidgeDetector::use(const GaussianKernels& kernels) {
+  smooth_.assign(kernels.smooth.begin(), kernels.smooth.end());
+  first_.assign(kernels.first.begin(), kernels.first.end());
+  second_.assign(kernels.second.begin(), kernels.second.end());
+  work_.resize(ridge_tile_work(kernels.half_width));
+  found_.clear();
 }
 
 void RidgeDetector::want(int column, int row) {
@@ -83,19 +103,16 @@ void RidgeDetector::look_at_wanted(const GreyImage& image, const GaussianKernels
   }
 }
 
-void RidgeDetector::want_what_lines_lead_to(std::size_t first_new, const GreyImage& image) {
-  for (std::size_t i = first_new; i < found_.size(); ++i) {
-    const RidgePoint& p = found_[i];
-    const auto block_of = [](int at, int size, int block) {
-      return std::clamp(at, 0, size - 1) / block;
-    };
-    const int left = block_of(p.column - kLineReach, image.width, BlockRejection::kWidth),
-              right = block_of(p.column + kLineReach, image.width, BlockRejection::kWidth);
-    const int top = block_of(p.row - kLineReach, image.height, BlockRejection::kHeight),
-              bottom = block_of(p.row + kLineReach, image.height, BlockRejection::kHeight);
-    for (const int column : {left, right})
-      for (const int row : {top, bottom}) want(column, row);
-  }
+void RidgeDetector::want_about(const RidgePoint& p, int reach, const GreyImage& image) {
+  const auto block_of = [](int at, int size, int block) {
+    return std::clamp(at, 0, size - 1) / block;
+  };
+  const int left = block_of(p.column - reach, image.width, BlockRejection::kWidth),
+            right = block_of(p.column + reach, image.width, BlockRejection::kWidth);
+  const int top = block_of(p.row - reach, image.height, BlockRejection::kHeight),
+            bottom = block_of(p.row + reach, image.height, BlockRejection::kHeight);
+  for (const int column : {left, right})
+    for (const int row : {top, bottom}) want(column, row);
 }
 
 // Found block by block: sorted by row in one go, then within each row, where most are in order.

@@ -37,6 +37,12 @@ class RidgeDetector {
   void detect_lines(const GreyImage& image, const GaussianKernels& kernels, double least_curvature,
                     double strong_curvature, int border, std::vector<RidgePoint>& points);
 
+  // The points in the blocks within reach (px) of those named, and others. The image is the one
+  // looked at last.
+  void detect_about(const GreyImage& image, const GaussianKernels& kernels, double least_curvature,
+                    int border, const std::vector<RidgePoint>& about, int reach,
+                    std::vector<RidgePoint>& points);
+
   // At two sigma the mirrored half shifts a line by less than 0.02 px per px of sigma and unit of
   // slope.
   static int margin(const GaussianKernels& kernels);
@@ -47,7 +53,8 @@ class RidgeDetector {
   void want(int column, int row);
   void look_at_wanted(const GreyImage& image, const GaussianKernels& kernels, float least_curvature,
                       int border);
-  void want_what_lines_lead_to(std::size_t first_new, const GreyImage& image);
+  void use(const GaussianKernels& kernels);
+  void want_about(const RidgePoint& point, int reach, const GreyImage& image);
   void collect_in_raster_order(int height, std::vector<RidgePoint>& points);
 
   BlockRejection rejection_;

@@ -17,7 +17,8 @@ constexpr double kLargestOfFirst = 4.5;  // px; a sigma wanted above it the firs
 constexpr double kWidestWhite = 4;       // px; nor a stripe with a white top wider than this
 constexpr double kSigmaStep = 1.0 / 32;  // px, of the sigma followed: kernels need not be made anew
 constexpr double kFollowing = 0.2;       // share of the difference taken up by each image
-constexpr double kNearEnough = 0.1;      // share of sigma that makes no difference
+constexpr std::size_t kFewestSamples = 40;
+constexpr double kNearEnough = 0.1;  // share of sigma that makes no difference
 // Standard deviation of a second derivative under white noise is 0.2443 noise / sigma^3 (3 / (16
 // pi), rooted); what starts a segment stands out from it by eight times.
 constexpr double kNoiseCurvature = 8 * 0.2443;
@@ -39,15 +40,18 @@ double median(FrameVector<float>& values) {
 
 }  // namespace
 
+double StripeExtractor::strong_curvature(double sigma) const {
+  return std::max(settings_.least_strength / strength_factor(sigma, settings_.strength_exponent),
+                  kNoiseCurvature * noise_ / (sigma * sigma * sigma));
+}
+
 void StripeExtractor::look_at(const GreyImage& image, double sigma) {
   chains_.clear();
   selection_.branches.clear();
   memory_.take_back();
   if (kernels_.sigma != sigma) kernels_ = gaussian_kernels(sigma);
   used_sigma_ = sigma;
-  const double strong =
-      std::max(settings_.least_strength / strength_factor(sigma, settings_.strength_exponent),
-               kNoiseCurvature * noise_ / (sigma * sigma * sigma));
+  const double strong = strong_curvature(sigma);
   detector_.detect_lines(image, kernels_, settings_.weakest_share * strong, strong, border(),
                          points_);
   linker_.link(points_, {strong, settings_.fewest_centres}, chains_, &memory_);
@@ -112,7 +116,8 @@ void StripeExtractor::follow_scale() {
 // stripe, and speckle does whatever its strength. By how much: from the distances of centres from
 // the chord between two farther along, at which their errors no longer hang together; those of the
 // stronger half and of the fainter half of the centres tell both parts.
-StripeExtractor::Scatter StripeExtractor::scatter(double sigma) {
+StripeExtractor::Scatter StripeExtractor::scatter(const std::vector<Centre>& centres,
+                                                  double sigma) {
   const auto lag = static_cast<std::size_t>(std::max(6.0, std::ceil(4 * sigma)));
   struct Sample {
     float law, square;  // variance by the law and as seen; px^2
@@ -121,17 +126,16 @@ StripeExtractor::Scatter StripeExtractor::scatter(double sigma) {
   for (const Branch& branch : selection_.branches) {
     if (!branch.chosen) continue;
     for (std::size_t i = lag; i + lag < branch.points.size(); ++i) {
-      const RidgePoint &a = points_[branch.points[i - lag]], &p = points_[branch.points[i]],
-                       &b = points_[branch.points[i + lag]];
+      const Centre &a = centres[branch.points[i - lag]], &p = centres[branch.points[i]],
+                   &b = centres[branch.points[i + lag]];
       const double du = b.u - a.u, dv = b.v - a.v, length = std::hypot(du, dv);
       if (length == 0) continue;
       const double distance = ((p.u - a.u) * dv - (p.v - a.v) * du) / length;
-      const double law = centre_deviation(p.curvature, sigma, noise_);
-      samples.push_back({static_cast<float>(law * law),
+      samples.push_back({p.deviation * p.deviation,
                          static_cast<float>(distance * distance / 1.5)});  // 1 + 1/4 + 1/4
     }
   }
-  if (samples.size() < 40) return {};
+  if (samples.size() < kFewestSamples) return {};
   const auto middle = samples.begin() + static_cast<std::ptrdiff_t>(samples.size() / 2);
   std::nth_element(samples.begin(), middle, samples.end(),
                    [](const Sample& a, const Sample& b) { return a.law < b.law; });
@@ -147,28 +151,32 @@ StripeExtractor::Scatter StripeExtractor::scatter(double sigma) {
   };
   const auto [strong_law, strong_square] = half(samples.begin(), middle);
   const auto [faint_law, faint_square] = half(middle, samples.end());
-  double per_law = (faint_square - strong_square) / (faint_law - strong_law);
-  if (!(per_law < strong_square / strong_law))  // all of it grows with the law
-    return {0, std::max(1.0, (strong_square + faint_square) / (strong_law + faint_law))};
-  per_law = std::max(per_law, 1.0);
-  return {std::max(0.0, (strong_square + faint_square - per_law * (strong_law + faint_law)) / 2),
-          per_law};
+  Scatter scatter;
+  scatter.variance = (strong_square + faint_square) / 2;
+  scatter.per_law = (faint_square - strong_square) / (faint_law - strong_law);
+  if (scatter.per_law < strong_square / strong_law) {
+    scatter.per_law = std::max(scatter.per_law, 1.0);
+    scatter.base = std::max(0.0, scatter.variance - scatter.per_law * (strong_law + faint_law) / 2);
+  } else {  // all of it grows with the law
+    scatter.per_law = std::max(1.0, 2 * scatter.variance / (strong_law + faint_law));
+  }
+  return scatter;
 }
 
-void StripeExtractor::set_out(const GreyImage& image, const Branch& branch,
-                              const Scatter& scatter) {
-  const int margin = RidgeDetector::margin(kernels_);
+void StripeExtractor::set_out(const GreyImage& image, const Branch& branch) {
   course_points_.clear();
   for (const int i : branch.points) {
     const RidgePoint& p = points_[i];
-    const bool at_border =
-        std::min({p.column, p.row, image.width - 1 - p.column, image.height - 1 - p.row}) < margin;
-    const double law = centre_deviation(p.curvature, used_sigma_, noise_);
-    CoursePoint point{p.u, p.v, std::sqrt(scatter.base + scatter.per_law * law * law), at_border};
+    const Centre& c = centres_[i];
+    const bool at_border = std::min({p.column, p.row, image.width - 1 - p.column,
+                                     image.height - 1 - p.row}) < std::ceil(2 * c.sigma);
+    CoursePoint point{c.u, c.v,
+                      std::sqrt(scatter_.base + scatter_.per_law * c.deviation * c.deviation),
+                      c.sigma, at_border};
     if (selection_.along_rows) std::swap(point.along, point.across);
     course_points_.push_back(point);
   }
-  if (branch.chosen && settings_.smooth_course) course_.smooth(course_points_, used_sigma_);
+  if (branch.chosen && settings_.smooth_course) course_.smooth(course_points_);
 }
 
 void StripeExtractor::describe(const GreyImage& image, Stripe& stripe) {
@@ -176,12 +184,11 @@ void StripeExtractor::describe(const GreyImage& image, Stripe& stripe) {
   stripe.sigma = static_cast<float>(used_sigma_);
   stripe.noise = static_cast<float>(noise_);
   const double factor = strength_factor(used_sigma_, settings_.strength_exponent);
-  const Scatter found = scatter(used_sigma_);
   int chosen = 0, saturated = 0;
   for (std::size_t b = 0; b < selection_.branches.size(); ++b) {
     const Branch& branch = selection_.branches[b];
     const BranchEnds ends = branch_ends(image, points_, selection_, b, used_sigma_, border());
-    set_out(image, branch, found);
+    set_out(image, branch);
     const std::size_t first = stripe.centres.size();
     for (std::size_t i = 0; i < branch.points.size(); ++i) {
       const RidgePoint& p = points_[branch.points[i]];
@@ -210,6 +217,68 @@ void StripeExtractor::describe(const GreyImage& image, Stripe& stripe) {
       chosen > 0 ? static_cast<float>(saturated) / static_cast<float>(chosen) : 0;
 }
 
+// The chosen points' centres, as found or, where that leaves less noise, at the smaller sigma:
+// a course's variance is that of its points times the length over which their errors hang together,
+// and that goes with sigma. Noise of fine grain wants the larger sigma, of coarse grain the
+// smaller.
+void StripeExtractor::measure(const GreyImage& image) {
+  centres_.clear();
+  for (const RidgePoint& p : points_)
+    centres_.push_back({p.u, p.v,
+                        static_cast<float>(centre_deviation(p.curvature, used_sigma_, noise_)),
+                        static_cast<float>(used_sigma_)});
+  scatter_ = scatter(centres_, used_sigma_);
+  if (settings_.sigma_px != 0 || !settings_.smooth_course) return;
+  const double share = settings_.measuring_sigma_per_width / settings_.sigma_per_width;
+  const double sigma =
+      std::max(kLeastSigma, std::round(share * used_sigma_ / kSigmaStep) * kSigmaStep);
+  if (sigma >= used_sigma_) return;
+  measure_at(image, sigma);
+  const Scatter finer = scatter(finer_, used_sigma_);
+  if (finer.variance * sigma >= scatter_.variance * used_sigma_) return;
+  std::swap(centres_, finer_);
+  scatter_ = finer;
+}
+
+void StripeExtractor::measure_at(const GreyImage& image, double sigma) {
+  finer_ = centres_;
+  if (measuring_kernels_.sigma != sigma) measuring_kernels_ = gaussian_kernels(sigma);
+  about_.clear();
+  for (const Branch& branch : selection_.branches)
+    if (branch.chosen)
+      for (const int i : branch.points) about_.push_back(points_[i]);
+  const int reach = static_cast<int>(std::lround(used_sigma_ / 2));
+  detector_.detect_about(image, measuring_kernels_,
+                         settings_.weakest_share * strong_curvature(sigma), border(), about_, reach,
+                         measured_);
+  const auto line = [&](const RidgePoint& p) { return selection_.along_rows ? p.row : p.column; };
+  const auto across = [&](const RidgePoint& p) { return selection_.along_rows ? p.u : p.v; };
+  const auto before = [&](const RidgePoint& a, const RidgePoint& b) {
+    return line(a) != line(b) ? line(a) < line(b) : across(a) < across(b);
+  };
+  std::sort(measured_.begin(), measured_.end(), before);
+  for (const Branch& branch : selection_.branches) {
+    if (!branch.chosen) continue;
+    for (const int i : branch.points) {
+      const RidgePoint& p = points_[i];
+      const auto after = std::lower_bound(measured_.begin(), measured_.end(), p, before);
+      const RidgePoint* nearest = nullptr;
+      const auto consider = [&](const RidgePoint& q) {
+        const float distance = std::abs(across(q) - across(p));
+        if (line(q) == line(p) && distance <= static_cast<float>(reach) &&
+            (nearest == nullptr || distance < std::abs(across(*nearest) - across(p))))
+          nearest = &q;
+      };
+      if (after != measured_.end()) consider(*after);
+      if (after != measured_.begin()) consider(*(after - 1));
+      if (nearest != nullptr)
+        finer_[i] = {nearest->u, nearest->v,
+                     static_cast<float>(centre_deviation(nearest->curvature, sigma, noise_)),
+                     static_cast<float>(sigma)};
+    }
+  }
+}
+
 int StripeExtractor::border() const {
   return settings_.smooth_course ? kBorder : RidgeDetector::margin(kernels_);
 }
@@ -229,6 +298,7 @@ void StripeExtractor::extract(const GreyImage& image, Stripe& stripe) {
     find_scale(image);
   else
     look_at(image, std::round(sigma_ / kSigmaStep) * kSigmaStep);
+  measure(image);
   describe(image, stripe);
   stripe.empty = stripe.centres.empty() ? "no stripe found" : "";
   if (follows && sigma_ > 0) follow_scale();

@@ -49,19 +49,29 @@ class StripeExtractor {
   double active_share() const { return detector_.active_share(); }  // of the last image's blocks
 
  private:
+  // The centre of a point, which may have been measured at another sigma than it was found at.
+  struct Centre {
+    float u, v;       // px
+    float deviation;  // by the law of white noise; px
+    float sigma;      // px
+  };
   // A centre's variance: base + per_law x that of white noise.
   struct Scatter {
     double base = 0;  // px^2
     double per_law = 1;
+    double variance = 0;  // of the middle one of all; px^2
   };
   void look_at(const GreyImage& image, double sigma);
   void find_scale(const GreyImage& image);
   void follow_scale();
   double chosen_strength() const;
   double wanted_sigma();  // from the widths seen; px, 0 where too few
-  Scatter scatter(double sigma);
+  Scatter scatter(const std::vector<Centre>& centres, double sigma);
+  double strong_curvature(double sigma) const;  // of what starts a segment; grey values / px^2
+  void measure(const GreyImage& image);
+  void measure_at(const GreyImage& image, double sigma);
   int border() const;  // px, in which nothing is looked for
-  void set_out(const GreyImage& image, const Branch& branch, const Scatter& scatter);
+  void set_out(const GreyImage& image, const Branch& branch);
   void describe(const GreyImage& image, Stripe& stripe);
 
   ExtractionSettings settings_;
@@ -77,6 +87,10 @@ class StripeExtractor {
   GaussianKernels kernels_;
   std::vector<RidgePoint> points_;
   std::vector<Chain> chains_;
+  std::vector<Centre> centres_, finer_;  // of each point
+  Scatter scatter_;
+  GaussianKernels measuring_kernels_;
+  std::vector<RidgePoint> about_, measured_;
   std::vector<float> widths_;  // of each point; px, 0 where not measured
   Selection selection_;
   BranchCourse course_;
