@@ -4,6 +4,7 @@
 
 #include <array>
 #include <string>
+#include <vector>
 
 #include "common/configuration.hpp"
 #include "services/cell_simulator/scene_settings.hpp"
@@ -51,6 +52,8 @@ struct CellSimulatorSettings {
   double return_speed_mm_s = 500;
   double acceleration_mm_s2 = 1000;
   double search_delay_s = 0.5;  // a scan's begin to the search's, at least
+  // Speeds of further sweeps, back and to again, in the same scan; for `arcstart time-offset`.
+  std::vector<double> further_sweeps_mm_s;
 
   // Faults, for tests: all begin so long after the begin of that scan.
   int fault_scan = 0;        // which scan since start, 1 for the first; 0: none
@@ -92,6 +95,12 @@ struct CellSimulatorSettings {
     visitor("return_speed_mm_s", return_speed_mm_s, between(1, 2000));
     visitor("acceleration_mm_s2", acceleration_mm_s2, between(10, 20000));
     visitor("search_delay_s", search_delay_s, between(0.3, 60));
+    visitor("further_sweeps_mm_s", further_sweeps_mm_s,
+            [](const std::vector<double>& speeds) -> std::string {
+              for (const double speed : speeds)
+                if (!(speed >= 0.1 && speed <= 1000)) return "must lie between 0.1 and 1000";
+              return speeds.size() <= 24 ? "" : "must be 24 speeds at most";
+            });
     visitor("fault_scan", fault_scan, not_negative());
     visitor("fault_after_s", fault_after_s, between(0, 600));
     visitor("fault_lose_every", fault_lose_every, not_negative());

@@ -54,6 +54,10 @@ Scene::Scene(std::vector<SceneObject> objects, std::optional<SeamTruth> seam)
 Scene make_scene(const SceneSettings& settings, SceneKind kind, std::uint64_t seed) {
   std::vector<SceneObject> objects{make_table(settings, seed)};
   if (kind == SceneKind::background) return Scene(std::move(objects));
+  if (settings.ball_radius_mm > 0) {
+    objects.push_back(make_ball(settings));
+    return Scene(std::move(objects));
+  }
   Work work = make_work(settings, seed);
   const std::vector<SceneObject> clutter = make_clutter(settings, work, seed),
                                  read = read_stl_files(settings);

@@ -63,7 +63,7 @@ class SceneError : public std::runtime_error {
 enum class SceneKind { background, workpiece };
 
 // The empty table, or the same table (the same seed gives the same bumps) with the work and what
-// lies about. Throws SceneError.
+// lies about; or with a ball in its place, where there is no seam. Throws SceneError.
 Scene make_scene(const SceneSettings& settings, SceneKind kind, std::uint64_t seed);
 
 }  // namespace arcstart

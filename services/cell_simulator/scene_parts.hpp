@@ -16,6 +16,10 @@ Eigen::Matrix3d turn(double degrees, const Eigen::Vector3d& axis);
 // unevenness.
 SceneObject make_table(const SceneSettings& settings, std::uint64_t seed);
 
+// A ball that lies on the table in the taught place, of facets no farther from it than 0.005 mm at
+// a radius of 20 mm. Dull, as a ball for measuring is.
+SceneObject make_ball(const SceneSettings& settings);
+
 // Two plates. Work frame: x along the seam, which runs through the origin; the first plate's top is
 // in z = 0, and the joint's open side looks to -y or, where it has none, up.
 struct Work {

@@ -33,10 +33,17 @@ struct SceneSettings {
   double search_begin_mm =
       -80;  // taught positions, along the search from the middle of the taught work
   double search_end_mm = 70;  // 150 mm of search
+  // For what a calibration is checked by: the search rises by so much from its begin to its end,
+  // half of it below the taught height; and sensor and search are turned about the vertical through
+  // the taught work.
+  double search_rise_mm = 0;
+  double search_turn_deg = 0;
 
   double table_size_mm = 700;        // square, its middle under the taught work
   double table_pitch_mm = 4;         // of its mesh
   double table_unevenness_mm = 0.4;  // highest deviation from flat, up and down
+
+  double ball_radius_mm = 0;  // a ball on the table's top in place of the joint; 0: none
 
   bool tool_lying_about = true;  // a hammer or a pair of pliers near the work
   bool box_beside = false;       // bigger than the plates, behind the work
@@ -66,9 +73,12 @@ struct SceneSettings {
     visitor("groove_angle_deg", groove_angle_deg, between(20, 120));
     visitor("search_begin_mm", search_begin_mm, between(-500, 500));
     visitor("search_end_mm", search_end_mm, between(-500, 500));
+    visitor("search_rise_mm", search_rise_mm, between(-200, 200));
+    visitor("search_turn_deg", search_turn_deg, between(-180, 180));
     visitor("table_size_mm", table_size_mm, between(10, 3000));
     visitor("table_pitch_mm", table_pitch_mm, between(1, 100));
     visitor("table_unevenness_mm", table_unevenness_mm, between(0, 20));
+    visitor("ball_radius_mm", ball_radius_mm, between(0, 100));
     visitor("tool_lying_about", tool_lying_about);
     visitor("box_beside", box_beside);
     visitor("box_on_base", box_on_base);

@@ -44,6 +44,11 @@ std::int64_t SearchMotion::search(std::int64_t now, std::int64_t scan_begin,
   const std::int64_t late = (earliest - offset) % trigger_period;
   const std::int64_t start = late == 0 ? earliest : earliest + trigger_period - late;
   append(start, end_, settings_.search_speed);
+  bool back = true;
+  for (const double speed : settings_.further_sweeps) {
+    append(start, back ? begin_ : end_, speed);
+    back = !back;
+  }
   return start;
 }
 
@@ -60,15 +65,21 @@ void SearchMotion::go_to(std::int64_t now, const RigidTransform& T_base_tool) {
 
 // An arm that stands there, or is on its way, is left alone.
 void SearchMotion::go_to_begin(std::int64_t now) {
+  cancel(now);
   if (way(moves_.back().to, begin_) < kSamePlace) return;
   stop(now);
   append(now + kNotice, begin_, settings_.return_speed);
 }
 
-// Cancels what has not begun within the notice, and brakes what runs then.
+// What has not begun within the notice.
+void SearchMotion::cancel(std::int64_t now) {
+  while (moves_.size() > 1 && moves_.back().start >= now + kNotice) moves_.pop_back();
+}
+
+// Cancels, and brakes what runs then.
 void SearchMotion::stop(std::int64_t now) {
   const std::int64_t when = now + kNotice;
-  while (moves_.size() > 1 && moves_.back().start >= when) moves_.pop_back();
+  cancel(now);
   Move& last = moves_.back();
   if (last.end <= when) return;
   const double time = seconds(when - last.start);

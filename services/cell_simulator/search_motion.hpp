@@ -4,6 +4,7 @@
 #include <cstdint>
 #include <deque>
 #include <mutex>
+#include <vector>
 
 #include "common/geometry.hpp"
 #include "services/cell_simulator/speed_profile.hpp"
@@ -15,6 +16,8 @@ struct SearchMotionSettings {
   double return_speed = 500;      // back, and to a pose that was asked for; mm/s
   double acceleration = 1000;     // of every move; mm/s2
   double delay_after_scan = 0.5;  // a scan's begin to the search's begin, at least; s
+  // Of further sweeps after the search, back to its begin, to its end again and so on; mm/s.
+  std::vector<double> further_sweeps = {};
 };
 
 // Where the tool is at any time, as straight moves strung on the host's clock. What is asked for
@@ -56,6 +59,7 @@ class SearchMotion {
     RigidTransform pose(std::int64_t utime) const;
   };
   void go_to_begin(std::int64_t now);
+  void cancel(std::int64_t now);
   void stop(std::int64_t now);
   void append(std::int64_t not_before, const RigidTransform& to, double speed);
 

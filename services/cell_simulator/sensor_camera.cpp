@@ -78,6 +78,14 @@ RigidTransform taught_tool_pose(const SensorSettings& sensor, const SceneSetting
   T_base_camera.linear().col(1) = down;
   T_base_camera.linear().col(2) = ahead;
   T_base_camera.translation() = target - sensor.stand_off_mm * ahead;
+  const double length = scene.search_end_mm - scene.search_begin_mm;
+  if (length != 0)
+    T_base_camera.translation().z() +=
+        scene.search_rise_mm * ((along_mm - scene.search_begin_mm) / length - 0.5);
+  const Eigen::Vector3d middle(scene.work_position_mm[0], scene.work_position_mm[1], 0);
+  T_base_camera = Eigen::Translation3d(middle) *
+                  Eigen::AngleAxisd(radians(scene.search_turn_deg), Eigen::Vector3d::UnitZ()) *
+                  Eigen::Translation3d(-middle) * T_base_camera;
   return T_base_camera * make_true_sensor(sensor).T_tool_camera.inverse();
 }
 

@@ -35,7 +35,8 @@ std::optional<Eigen::Vector2d> see(const TrueSensor& sensor, const Eigen::Vector
 
 // T_base_tool in which the optical axis, leaning over the open side and square to the search
 // direction, meets the taught work's root line `along_mm` from its middle at the stand-off
-// distance. The laser plane meets it there too.
+// distance. The laser plane meets it there too. A search that rises is higher or lower there, one
+// that is turned looks and runs another way.
 RigidTransform taught_tool_pose(const SensorSettings& sensor, const SceneSettings& scene,
                                 double along_mm);
 

@@ -67,7 +67,7 @@ SimulatedCell::SimulatedCell(const CellSimulatorSettings& settings, std::int64_t
                settings.fault_robot_clock_back_s}),
       motion_(search_begin(settings), search_end(settings),
               {settings.search_speed_mm_s, settings.return_speed_mm_s, settings.acceleration_mm_s2,
-               settings.search_delay_s}),
+               settings.search_delay_s, settings.further_sweeps_mm_s}),
       arm_(tool_of(settings)),
       controller_(controller_settings(settings, now),
                   [this](std::int64_t utime) { return reported_pose(utime); }),

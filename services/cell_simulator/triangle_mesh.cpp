@@ -1,6 +1,8 @@
 #include "services/cell_simulator/triangle_mesh.hpp"
 
+#include <algorithm>
 #include <cmath>
+#include <map>
 #include <numbers>
 
 namespace arcstart {
@@ -37,6 +39,39 @@ TriangleMesh make_prism(int sides, double radius, double begin, double end) {
   TriangleMesh mesh = make_plate(outline, begin, end);
   for (auto& corner : mesh.corners)
     corner = Eigen::Vector3d(corner.z(), corner.x(), corner.y());  // z to x
+  return mesh;
+}
+
+TriangleMesh make_sphere(double radius, int partings) {
+  const double g = std::numbers::phi;
+  TriangleMesh mesh;
+  mesh.corners = {{-1, g, 0},  {1, g, 0},  {-1, -g, 0}, {1, -g, 0}, {0, -1, g},  {0, 1, g},
+                  {0, -1, -g}, {0, 1, -g}, {g, 0, -1},  {g, 0, 1},  {-g, 0, -1}, {-g, 0, 1}};
+  mesh.triangles = {{0, 11, 5}, {0, 5, 1},  {0, 1, 7},   {0, 7, 10}, {0, 10, 11},
+                    {1, 5, 9},  {5, 11, 4}, {11, 10, 2}, {10, 7, 6}, {7, 1, 8},
+                    {3, 9, 4},  {3, 4, 2},  {3, 2, 6},   {3, 6, 8},  {3, 8, 9},
+                    {4, 9, 5},  {2, 4, 11}, {6, 2, 10},  {8, 6, 7},  {9, 8, 1}};
+  for (int parting = 0; parting < partings; ++parting) {
+    std::map<std::pair<int, int>, int> middles;
+    const auto middle = [&](int a, int b) {
+      const auto [entry, is_new] = middles.try_emplace({std::min(a, b), std::max(a, b)},
+                                                       static_cast<int>(mesh.corners.size()));
+      if (is_new)
+        mesh.corners.push_back((mesh.corners[static_cast<std::size_t>(a)].normalized() +
+                                mesh.corners[static_cast<std::size_t>(b)].normalized()) /
+                               2);
+      return entry->second;
+    };
+    std::vector<std::array<int, 3>> parts;
+    for (const auto& [a, b, c] : mesh.triangles) {
+      const int ab = middle(a, b), bc = middle(b, c), ca = middle(c, a);
+      for (const std::array<int, 3>& part : {std::array{a, ab, ca}, std::array{b, bc, ab},
+                                             std::array{c, ca, bc}, std::array{ab, bc, ca}})
+        parts.push_back(part);
+    }
+    mesh.triangles = std::move(parts);
+  }
+  for (Eigen::Vector3d& corner : mesh.corners) corner = radius * corner.normalized();
   return mesh;
 }
 

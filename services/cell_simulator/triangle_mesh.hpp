@@ -20,6 +20,9 @@ TriangleMesh make_box(const Eigen::Vector3d& low, const Eigen::Vector3d& high);
 // A regular prism of n >= 3 sides about the x axis, from x = begin to x = end.
 TriangleMesh make_prism(int sides, double radius, double begin, double end);
 
+// About the origin: an icosahedron whose faces are parted in four so many times.
+TriangleMesh make_sphere(double radius, int partings);
+
 // A convex outline (x, y), counter-clockwise, raised from z = bottom to z = top.
 TriangleMesh make_plate(const std::vector<Eigen::Vector2d>& outline, double bottom, double top);
 

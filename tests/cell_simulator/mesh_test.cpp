@@ -177,3 +177,16 @@ TEST_CASE("an interval keeps what every condition leaves") {
   nowhere.keep(-1, -2);
   CHECK(nowhere.empty());
 }
+
+TEST_CASE("a sphere is closed, its corners lie on it and its faces hardly below") {
+  const TriangleMesh sphere = make_sphere(20, 5);
+  CHECK(sphere.triangles.size() == 20480);
+  CHECK(openness(sphere) < 1e-6);
+  CHECK(volume(sphere) == Approx(4 * std::numbers::pi / 3 * 8000).epsilon(1e-3));
+  double deepest = 20;
+  for (const auto& [a, b, c] : sphere.triangles)
+    deepest =
+        std::min(deepest, (sphere.corners[a] + sphere.corners[b] + sphere.corners[c]).norm() / 3);
+  CHECK(deepest > 20 - 0.009);
+  for (const auto& corner : sphere.corners) CHECK(corner.norm() == Approx(20));
+}

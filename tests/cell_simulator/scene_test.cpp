@@ -313,3 +313,15 @@ TEST_CASE(
   CHECK_THROWS_WITH(make_scene(settings, SceneKind::workpiece, 1),
                     Contains("stl_files") && Contains(path));
 }
+
+TEST_CASE("a ball lies on the table in the joint's place, and there is no seam") {
+  SceneSettings settings = with_coarse_table();
+  settings.ball_radius_mm = 20;
+  const Scene scene = make_scene(settings, SceneKind::workpiece, 3);
+  CHECK_FALSE(scene.seam());
+  CHECK(scene.objects().size() == 2);
+  const Eigen::Vector3d centre(950, 0, 20);
+  for (const auto& corner : object(scene, "ball").mesh.corners)
+    CHECK((corner - centre).norm() == Approx(20));
+  CHECK_FALSE(has(make_scene(settings, SceneKind::background, 3), "ball"));
+}

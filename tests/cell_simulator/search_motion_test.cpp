@@ -132,3 +132,21 @@ TEST_CASE("a pose asked for on the way to another is reached without a jump") {
   CHECK(motion.pose(motion.at_rest_from(kNow)).isApprox(first, 1e-12));
   check_smooth(motion, kNow, motion.at_rest_from(kNow) + 10'000, 500, 1000);
 }
+
+TEST_CASE("further sweeps go back and to at their own speeds, in one scan, and end with it") {
+  SearchMotionSettings settings;
+  settings.further_sweeps = {50, 120, 120};
+  SearchMotion motion(kBegin, kEnd, settings);
+  const std::int64_t start = motion.search(kNow, kNow, kPeriod, 0.5);
+  // 150 mm and the time to get to speed, at 50, 50, 120 and 120 mm/s.
+  const std::int64_t end = start + 2 * 3'050'000 + 2 * 1'370'000;
+  CHECK(motion.at_rest_from(kNow) == end);
+  CHECK(along(motion, start + 3'050'000) == Approx(150));
+  CHECK(along(motion, start + 6'100'000) == Approx(0).margin(1e-9));
+  CHECK(along(motion, start + 7'470'000) == Approx(150));
+  CHECK(along(motion, end) == Approx(0).margin(1e-9));
+  check_smooth(motion, start, end + 100'000, 120, 1000);
+  motion.go_back(start + 1'000'000);
+  CHECK(motion.at_rest_from(kNow) < start + 3'000'000);
+  CHECK(along(motion, start + 60'000'000) == Approx(0).margin(1e-9));
+}

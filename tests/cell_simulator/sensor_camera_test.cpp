@@ -108,3 +108,28 @@ TEST_CASE("taught poses look at the work as they should") {
     CHECK((T_base_camera * sensor.projector).x() > target.x() + 100);
   }
 }
+
+TEST_CASE("a search can rise on its way and run another way over the same work") {
+  const SensorSettings sensor;
+  SceneSettings scene;
+  const RigidTransform begin = taught_tool_pose(sensor, scene, -80),
+                       end = taught_tool_pose(sensor, scene, 70);
+  scene.search_rise_mm = 60;
+  CHECK((taught_tool_pose(sensor, scene, -80).translation() - begin.translation())
+            .isApprox(Eigen::Vector3d(0, 0, -30), 1e-9));
+  CHECK((taught_tool_pose(sensor, scene, 70).translation() - end.translation())
+            .isApprox(Eigen::Vector3d(0, 0, 30), 1e-9));
+  scene.search_rise_mm = 0;
+  scene.search_turn_deg = 90;
+  const Eigen::Vector3d way = taught_tool_pose(sensor, scene, 70).translation() -
+                              taught_tool_pose(sensor, scene, -80).translation();
+  CHECK(way.isApprox(Eigen::Vector3d(0, 150, 0), 1e-9));
+  // The same point of the work stands in the same place of the image.
+  const Eigen::Vector3d middle(scene.work_position_mm[0], scene.work_position_mm[1], 10);
+  const RigidTransform T_tool_camera = make_true_sensor(sensor).T_tool_camera;
+  const Eigen::Vector3d turned =
+      (taught_tool_pose(sensor, scene, 0) * T_tool_camera).inverse() * middle;
+  scene.search_turn_deg = 0;
+  CHECK(turned.isApprox((taught_tool_pose(sensor, scene, 0) * T_tool_camera).inverse() * middle,
+                        1e-9));
+}
