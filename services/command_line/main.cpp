@@ -14,6 +14,7 @@
 #include "services/command_line/monitor_command.hpp"
 #include "services/command_line/replay_command.hpp"
 #include "services/command_line/scan_command.hpp"
+#include "services/command_line/time_offset_command.hpp"
 
 int main(int argc, char** argv) {
   using namespace arcstart;
@@ -31,6 +32,7 @@ int main(int argc, char** argv) {
   add_extract_command(program, exit_code);
   add_find_seam_command(program, exit_code);
   add_calibrate_command(program, exit_code);
+  add_time_offset_command(program, exit_code);
   add_monitor_command(program, exit_code);
   add_cell_command(program, exit_code);
   try {

@@ -1,6 +1,7 @@
 // bench_calibration: what a calibration from rendered plate images is worth, against the simulated
 // sensor's truth, every seed told. The same images serve all robot errors of a seed.
 #include <fmt/format.h>
+#include <spdlog/spdlog.h>
 
 #include <CLI/CLI.hpp>
 #include <algorithm>
@@ -9,6 +10,7 @@
 #include <nlohmann/json.hpp>
 
 #include "services/calibration/calibrate.hpp"
+#include "tests/bench/calibration_in_use.hpp"
 #include "tests/bench/calibration_mistakes.hpp"
 #include "tests/bench/simulated_plate.hpp"
 
@@ -147,17 +149,22 @@ void report(const std::string& row, const Sums& sums, nlohmann::json& json) {
 int main(int argc, char** argv) {
   CLI::App options("Accuracy of a calibration from rendered images of a plate, 20 poses each");
   std::string json_path, folder;
-  int seeds = 10, ratio_seeds = 20;
+  int seeds = 10, ratio_seeds = 20, trials = 10, experiments = 20;
   options.add_option("--json", json_path, "Where the figures go, flat JSON");
   options.add_option("--seeds", seeds, "Seeds 1 to N of the error rows, none left out")
       ->capture_default_str();
   options.add_option("--ratio-seeds", ratio_seeds, "Seeds 1 to N of the deviation's ratio")
+      ->capture_default_str();
+  options.add_option("--trials", trials, "Seeds 1 to N of the time offset")->capture_default_str();
+  options
+      .add_option("--experiments", experiments, "Seeds 1 to N of the experiment with the result")
       ->capture_default_str();
   options.add_option(
       "--folder", folder,
       "Instead, write the first seed's images and poses with a robot error of 0.1 mm, "
       "0.01 deg as a folder for arcstart calibrate");
   CLI11_PARSE(options, argc, argv);
+  spdlog::set_level(spdlog::level::err);  // the tables alone
   const SensorSettings settings;
   PrintedPlate well, poor;
   poor.columns = 11;
@@ -211,7 +218,9 @@ int main(int argc, char** argv) {
     json[row + ".e2e_sd_ratio"] = more[row + ".e2e_sd_ratio"];
     json[row + ".sd_ratio_n"] = all.seeds;
   }
-  report(mistakes, json);
+  if (seeds > 0) report(mistakes, json);
+  if (trials > 0) bench_time_offset(trials, json);
+  if (experiments > 0) bench_experiment(experiments, json);
   if (!json_path.empty() && !(std::ofstream(json_path) << json.dump(2) << '\n')) {
     fmt::print(stderr, "bench_calibration: {} cannot be written\n", json_path);
     return 1;

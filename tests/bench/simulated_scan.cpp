@@ -2,8 +2,10 @@
 
 #include <random>
 
+#include "common/calibration_message.hpp"
 #include "common/sensor_model.hpp"
 #include "common/time.hpp"
+#include "services/cell_simulator/random_stream.hpp"
 
 namespace arcstart {
 namespace {
@@ -24,6 +26,8 @@ SimulatedScan::SimulatedScan(Bus& bus, const SimulatedScanSettings& settings, st
 }
 
 void SimulatedScan::publish_calibration() {
+  if (settings_.calibration)
+    return bus_.publish("LASER0_CALIBRATION", to_message(*settings_.calibration));
   const TrueSensor& sensor = renderer_.sensor();
   SensorModel model{
       sensor.width, sensor.height, sensor.fx,         sensor.fy,
@@ -52,6 +56,17 @@ void SimulatedScan::publish_calibration() {
   bus_.publish("LASER0_CALIBRATION", message);
 }
 
+void SimulatedScan::draw_robot_error(SceneKind kind) {
+  RandomStream random(seed_, kind == SceneKind::workpiece ? 82 : 81);
+  Eigen::Vector3d shift, turn;
+  for (double& value : shift) value = settings_.robot_error_mm * random.normal();
+  for (double& value : turn) value = settings_.robot_error_deg * EIGEN_PI / 180 * random.normal();
+  robot_error_ = RigidTransform::Identity();
+  robot_error_.translation() = shift;
+  if (turn.norm() > 0)
+    robot_error_.linear() = Eigen::AngleAxisd(turn.norm(), turn.normalized()).toRotationMatrix();
+}
+
 void SimulatedScan::publish_scan(std::int8_t state, SceneKind kind, std::int64_t now, int images) {
   scan_t message{};
   message.utime = now;
@@ -76,6 +91,8 @@ void SimulatedScan::publish_pose(const RigidTransform& T_base_tool, std::int64_t
   message.run_id = kRunId;
   message.seq = pose_seq_++;
   RigidTransform seen = T_base_tool;
+  seen.linear() = robot_error_.linear() * seen.linear();
+  seen.translation() += robot_error_.translation();
   seen.translation() += Eigen::Vector3d(noise(random), noise(random), noise(random));
   transform_to_arrays(seen, message.position, message.quaternion);
   message.device_clock = utime;
@@ -129,6 +146,7 @@ void SimulatedScan::run(SceneKind kind) {
   publish_scan(scan_t::SCANNING, kind, clock_, 0);
   first_seq_ = image_seq_;
   frames_lost_ = 0;
+  draw_robot_error(kind);
   int images = 0, positions = -50;  // a second of positions before the scan
   const double last = duration + 1;
   for (;;) {

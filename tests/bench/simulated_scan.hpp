@@ -5,9 +5,11 @@
 
 #include <arcstart/truth_t.hpp>
 #include <cstdint>
+#include <optional>
 #include <random>
 
 #include "common/bus.hpp"
+#include "common/calibration.hpp"
 #include "services/cell_simulator/image_renderer.hpp"
 #include "services/cell_simulator/scene.hpp"
 
@@ -23,6 +25,10 @@ struct SimulatedScanSettings {
   double image_delay_s = 0.02732;  // images are stamped so much late
   double frames_lost_share = 0;    // at the camera
   double positions_lost_share = 0;
+  std::optional<Calibration> calibration;  // what the pipeline is told; nothing: the truth
+  // What the robot says is wrong by these, the same all through a scan, drawn anew for each:
+  // standard deviations an axis, of the place in base and of the turn about the tool centre point.
+  double robot_error_mm = 0, robot_error_deg = 0;
 };
 
 class SimulatedScan {
@@ -42,6 +48,7 @@ class SimulatedScan {
 
  private:
   void publish_calibration();
+  void draw_robot_error(SceneKind kind);
   void publish_scan(std::int8_t state, SceneKind kind, std::int64_t now, int images);
   void publish_pose(const RigidTransform& T_base_tool, std::int64_t utime);
   void publish_image(const Scene& scene, const RigidTransform& T_base_tool, std::int64_t middle,
@@ -56,7 +63,8 @@ class SimulatedScan {
   ImageRenderer renderer_;
   std::int64_t clock_ = 1'700'000'000'000'000;  // us, UTC
   std::int64_t scan_id_ = 0, image_seq_ = 0, pose_seq_ = 0, first_seq_ = 0;
-  int frames_lost_ = 0;  // of this scan
+  int frames_lost_ = 0;                                      // of this scan
+  RigidTransform robot_error_ = RigidTransform::Identity();  // of this scan
 };
 
 }  // namespace arcstart

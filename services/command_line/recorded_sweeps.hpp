@@ -1,0 +1,27 @@
+// Stripes and positions out of recordings, for what judges a calibration by sweeps.
+#pragma once
+
+#include <functional>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "services/calibration/swept_stripes.hpp"
+
+namespace arcstart {
+
+struct RecordedSweeps {
+  std::string name, sensor, robot;
+  SweepRecord record;
+  std::optional<Calibration> calibration;  // the last of the recording that could be used
+  std::vector<std::string> warnings;       // one line each
+};
+
+// Images go through extraction with the settings that the recording's STATUS says, stripes are
+// taken as they are. An empty sensor or robot is found from the channels. Throws EventLogError or
+// RecordingError, each of one clear line, where stripes or positions are lacking.
+RecordedSweeps read_sweeps(
+    const std::vector<std::string>& paths, const std::string& sensor, const std::string& robot,
+    const std::function<void(double share)>& on_progress = [](double) {});
+
+}  // namespace arcstart
