@@ -9,6 +9,7 @@
 #include "common/configuration.hpp"
 #include "services/command_line/calibrate_command.hpp"
 #include "services/command_line/cell_command.hpp"
+#include "services/command_line/check_command.hpp"
 #include "services/command_line/extract_command.hpp"
 #include "services/command_line/find_seam_command.hpp"
 #include "services/command_line/monitor_command.hpp"
@@ -33,6 +34,7 @@ int main(int argc, char** argv) {
   add_find_seam_command(program, exit_code);
   add_calibrate_command(program, exit_code);
   add_time_offset_command(program, exit_code);
+  add_check_command(program, exit_code);
   add_monitor_command(program, exit_code);
   add_cell_command(program, exit_code);
   try {

@@ -2,8 +2,12 @@
 
 #include <fmt/format.h>
 
+#include <iostream>
+
 #include "common/calibration_message.hpp"
+#include "services/calibration/calibration_file.hpp"
 #include "services/command_line/recording.hpp"
+#include "services/command_line/terminal.hpp"
 #include "services/extraction/extraction_app.hpp"
 
 namespace arcstart {
@@ -84,6 +88,39 @@ RecordedSweeps read_sweeps(const std::vector<std::string>& paths, const std::str
   if (positions == 0) lacks(sweeps.robot + "_POSE", "without the robot's way no sweep can be told");
   for (const std::string& warning : recording.warnings()) sweeps.warnings.push_back(warning);
   return sweeps;
+}
+
+void SweepOptions::add_to(CLI::App& command) {
+  command.add_option("LOG", paths, "Recordings by lcm-logger, of one scan or several")->required();
+  command
+      .add_option("--calibration", calibration,
+                  "The sensor's calibration file; without it the recording's")
+      ->check(CLI::ExistingFile);
+  command.add_option("--sensor", sensor, "Needed where LOG holds several");
+  command.add_option("--robot", robot, "That carries it; without it the calibration's");
+}
+
+JudgedSweeps read_judged_sweeps(const SweepOptions& options, const std::string& command) {
+  ProgressLine progress;
+  JudgedSweeps judged{
+      read_sweeps(options.paths, options.sensor, options.robot,
+                  [&](double share) {
+                    progress.show(fmt::format("{}: reading {:.0f} %", command, 100 * share));
+                  }),
+      {}};
+  progress.clear();
+  const RecordedSweeps& sweeps = judged.sweeps;
+  for (const std::string& warning : sweeps.warnings)
+    std::cerr << command << ": " << warning << "\n";
+  if (options.calibration.empty() && !sweeps.calibration)
+    throw RecordingError(sweeps.name +
+                         ": holds no calibration: give the sensor's with --calibration");
+  judged.calibration = options.calibration.empty() ? *sweeps.calibration
+                                                   : read_calibration_file(options.calibration);
+  if (const auto error = instance_error(judged.calibration, sweeps.sensor, sweeps.robot);
+      !error.empty())
+    throw RecordingError("the calibration does not fit the recording: " + error);
+  return judged;
 }
 
 }  // namespace arcstart

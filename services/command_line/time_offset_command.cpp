@@ -12,14 +12,13 @@
 #include "services/calibration/time_offset.hpp"
 #include "services/command_line/recorded_sweeps.hpp"
 #include "services/command_line/recording.hpp"
-#include "services/command_line/terminal.hpp"
 
 namespace arcstart {
 namespace {
 
 struct Options {
-  std::vector<std::string> paths;
-  std::string calibration, output, sensor, robot;
+  SweepOptions sweeps;
+  std::string output;
   bool json = false;
 };
 
@@ -60,24 +59,7 @@ void tell(const TimeOffset& found) {
 }
 
 int run(const Options& options) try {
-  ProgressLine progress;
-  const RecordedSweeps sweeps =
-      read_sweeps(options.paths, options.sensor, options.robot, [&](double share) {
-        progress.show(fmt::format("time-offset: reading {:.0f} %", 100 * share));
-      });
-  progress.clear();
-  for (const std::string& warning : sweeps.warnings) say(warning);
-  if (options.calibration.empty() && !sweeps.calibration) {
-    say(sweeps.name + ": holds no calibration: give the sensor's with --calibration");
-    return 2;
-  }
-  const Calibration calibration = options.calibration.empty()
-                                      ? *sweeps.calibration
-                                      : read_calibration_file(options.calibration);
-  if (const auto error = instance_error(calibration, sweeps.sensor, sweeps.robot); !error.empty()) {
-    say("the calibration does not fit the recording: " + error);
-    return 2;
-  }
+  const auto [sweeps, calibration] = read_judged_sweeps(options.sweeps, "time-offset");
   const TimeOffset found = find_time_offset(sweeps.record, calibration);
   tell(found);
   if (options.json) std::cout << to_json(found).dump(2) << "\n";
@@ -108,17 +90,10 @@ void add_time_offset_command(CLI::App& parent, int& exit_code) {
   auto options = std::make_shared<Options>();
   CLI::App* command = parent.add_subcommand(
       "time-offset", "How late images are stamped against positions, from recorded sweeps");
-  command->add_option("LOG", options->paths, "Recordings by lcm-logger, of one scan or several")
-      ->required();
-  command
-      ->add_option("--calibration", options->calibration,
-                   "The sensor's calibration file; without it the recording's")
-      ->check(CLI::ExistingFile);
+  options->sweeps.add_to(*command);
   command->add_option("-o,--output", options->output,
                       "File for the same calibration with the time offset found");
   command->add_flag("--json", options->json, "Print all that was found on standard output; s, mm");
-  command->add_option("--sensor", options->sensor, "Needed where LOG holds several");
-  command->add_option("--robot", options->robot, "That carries it; without it the calibration's");
   command->footer(
       "Record a scan (scripts/record, arcstart scan) in which the robot sweeps to and fro over a "
       "flat face, a table or a\n"

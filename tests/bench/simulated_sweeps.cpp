@@ -29,7 +29,7 @@ void append_sweeps(SweepRecord& record, const SimulatedSweepsSettings& settings,
   StripeExtractor extractor(ExtractionSettings{});
   RandomStream jitter(seed, 71), noise(seed, 72), phase(seed, 73);
   const std::int64_t begin =
-      record.stripes.empty() ? 1'700'000'000'000'000 : record.stripes.back().utime + 60'000'000;
+      record.stripes.empty() ? settings.begin_utime : record.stripes.back().utime + 60'000'000;
   const auto taught = [&](double along) {
     return taught_tool_pose(settings.sensor, settings.scene, along);
   };

@@ -18,9 +18,10 @@ struct SimulatedSweepsSettings {
   double frames_per_second = 14;
   double positions_per_second = 50;
   double position_noise_mm = 0.02;
-  double image_delay_s = 0.02732;  // images are stamped so much late
-  double image_jitter_s = 0.5e-3;  // standard deviation of each stamp
-  double play_mm = 0;              // by which the robot stays behind what it says, in motion
+  double image_delay_s = 0.02732;                    // images are stamped so much late
+  double image_jitter_s = 0.5e-3;                    // standard deviation of each stamp
+  std::int64_t begin_utime = 1'700'000'000'000'000;  // of the first scan; us
+  double play_mm = 0;  // by which the robot stays behind what it says, in motion
 };
 
 // One scan of to and fro, appended to the record a minute after what stands in it.
