@@ -3,15 +3,12 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <cmath>
 
+#include "services/seam_finding/cloud_builder.hpp"
 #include "services/seam_finding/seam_message.hpp"
 
 namespace arcstart {
 namespace {
-
-constexpr std::int64_t kLongestScan = 100'000;  // frames: a seq beyond is damage, not a scan
-constexpr double kFarthest = 1e5;               // mm: a point farther away is damage, too
 
 seam_t empty_answer(const CollectedScan& scan) {
   seam_t seam = empty_seam();
@@ -38,28 +35,6 @@ seam_t refused(seam_t seam, const std::string& reason) {
 bool stripe_was_empty(const profile_t& profile) {
   return profile.count == 0 && (profile.empty.starts_with("stripe empty: ") ||
                                 profile.empty == "no point within the working range");
-}
-
-// A whole image without a stripe tells that nothing was there; one that was cut short, or of which
-// the position is not known, tells nothing.
-ScanStripe::Seen seen_in(const profile_t& profile) {
-  if (profile.count > 0) return ScanStripe::Seen::kSeen;
-  const bool nothing = profile.empty.starts_with("stripe empty: no ") ||
-                       profile.empty == "no point within the working range";
-  return nothing ? ScanStripe::Seen::kEmpty : ScanStripe::Seen::kMissing;
-}
-
-// Way on the surface that is a pixel along the stripe there: from the neighbour that down-sampling
-// left.
-float step_at(const profile_t& profile, int i) {
-  for (const int j : {i - 1, i + 1}) {
-    if (j < 0 || j >= profile.count || profile.segment[j] != profile.segment[i]) continue;
-    const float pixels = std::hypot(profile.u[j] - profile.u[i], profile.v[j] - profile.v[i]);
-    const float way = std::hypot(profile.x[j] - profile.x[i], profile.y[j] - profile.y[i],
-                                 profile.z[j] - profile.z[i]);
-    if (pixels > 0.5f) return way / pixels;
-  }
-  return 0;
 }
 
 int missing_of(const ScanCloud& cloud) {
@@ -98,32 +73,11 @@ ScanBalance balance_of(const CollectedScan& scan) {
 }
 
 ScanCloud cloud_of(const CollectedScan& scan) {
-  ScanCloud cloud;
-  if (scan.profiles.empty()) return cloud;
-  const profile_t& first = scan.profiles.front();
-  std::int64_t expected =
-      scan.state.first_seq >= 0 ? scan.state.first_seq : first.seq - std::max(0, first.scan_index);
-  const auto miss_until = [&](std::int64_t seq) {
-    for (std::int64_t i = 0; expected < seq && i < kLongestScan; ++expected, ++i)
-      end_stripe(cloud, ScanStripe::Seen::kMissing);
-  };
-  for (const profile_t& profile : scan.profiles) {
-    miss_until(profile.seq);
-    expected = profile.seq + 1;
-    const int stripe = static_cast<int>(cloud.stripes.size());
-    for (int i = 0; i < profile.count; ++i) {
-      const Eigen::Vector3d point(profile.x[i], profile.y[i], profile.z[i]);
-      if (point.cwiseAbs().maxCoeff() > kFarthest) continue;
-      cloud.points.push_back(point);
-      cloud.origins.push_back({stripe, profile.segment[i],
-                               profile.segment_end[i] == profile_t::SEGMENT_END,
-                               profile.deviation[i], step_at(profile, i)});
-    }
-    end_stripe(cloud, seen_in(profile), Eigen::Map<const Eigen::Vector3d>(profile.camera_centre),
-               Eigen::Map<const Eigen::Vector3d>(profile.tool_position));
-  }
-  miss_until(scan.state.last_seq + 1);
-  return cloud;
+  if (scan.profiles.empty()) return {};
+  CloudBuilder builder(scan.state.first_seq);
+  for (const profile_t& profile : scan.profiles) builder.add(profile);
+  builder.miss_until(scan.state.last_seq + 1);
+  return builder.take_cloud();
 }
 
 std::string calibration_of(const CollectedScan& scan, std::string& error) {
@@ -180,6 +134,17 @@ seam_t answer_background(const CollectedScan& scan, const std::string& error) {
 
 seam_t answer_workpiece(const CollectedScan& scan, const StoredBackground* background,
                         const SeamFindingSettings& settings) {
+  return answer_workpiece(scan, prepare(scan, background), background, settings);
+}
+
+PreparedScan prepare(const CollectedScan& scan, const StoredBackground* background) {
+  PreparedScan prepared{cloud_of(scan), {}};
+  if (background) divide(prepared.cloud, background->model(), prepared.division);
+  return prepared;
+}
+
+seam_t answer_workpiece(const CollectedScan& scan, PreparedScan prepared,
+                        const StoredBackground* background, const SeamFindingSettings& settings) {
   seam_t seam = empty_answer(scan);
   if (!scan.refusal.empty()) return refused(seam, scan.refusal);
   std::string error;
@@ -187,7 +152,7 @@ seam_t answer_workpiece(const CollectedScan& scan, const StoredBackground* backg
   if (!error.empty()) return refused(seam, error);
   if (scan.state.images == 0) return refused(seam, "the scan has no images");
   const ScanBalance balance = balance_of(scan);
-  const ScanCloud cloud = cloud_of(scan);
+  const ScanCloud& cloud = prepared.cloud;
   const int missing = missing_of(cloud);
   if (scan.profiles.empty() ||
       missing > settings.lost_share_max * static_cast<double>(cloud.stripes.size()))
@@ -206,7 +171,7 @@ seam_t answer_workpiece(const CollectedScan& scan, const StoredBackground* backg
   seam.background_scan_id = background->scan_id();
   seam.remark = balance.losses();
   if (scan.state.end_reason == "camera lost") seam.remark += "the camera was lost in the scan; ";
-  fill_in(seam, find_seam(cloud, background->model(), settings,
+  fill_in(seam, find_seam(cloud, std::move(prepared.division), settings,
                           static_cast<std::uint64_t>(scan.state.scan_id)));
   return seam;
 }

@@ -50,7 +50,17 @@ class StoredBackground {
 // for the surface is known from those beside them: no more than one in twenty, no two in a row.
 std::string background_error(const CollectedScan& scan);
 
-// The answer to a workpiece scan; background: nullptr where there is none.
+// A workpiece scan before the seam is sought: its cloud, divided where there is a background.
+struct PreparedScan {
+  ScanCloud cloud;
+  Division division;
+};
+PreparedScan prepare(const CollectedScan& scan, const StoredBackground* background);
+
+// The answer to a workpiece scan; background: nullptr where there is none. prepared: by that
+// background.
+seam_t answer_workpiece(const CollectedScan& scan, PreparedScan prepared,
+                        const StoredBackground* background, const SeamFindingSettings& settings);
 seam_t answer_workpiece(const CollectedScan& scan, const StoredBackground* background,
                         const SeamFindingSettings& settings);
 // The receipt for a background scan; error: why it cannot serve, empty where it is stored.

@@ -51,14 +51,21 @@ void SeamFindingApp::take(const scan_t& state) {
 void SeamFindingApp::take(const profile_t& profile) {
   alive_ = steady_now();
   collector_.take(profile);
+  running_.take(profile, profile.count > 0 ? background_for(profile.scan_id, profile.calibration_id)
+                                           : nullptr);
   answer_decided();
 }
 
 void SeamFindingApp::answer_decided() {
   while (const auto scan = collector_.next())
-    send(scan->state.kind == scan_t::BACKGROUND
-             ? take_background(*scan)
-             : answer_workpiece(*scan, background_for(*scan), settings_));
+    send(scan->state.kind == scan_t::BACKGROUND ? take_background(*scan) : take_workpiece(*scan));
+}
+
+seam_t SeamFindingApp::take_workpiece(const CollectedScan& scan) {
+  std::string error;
+  const StoredBackground* background =
+      background_for(scan.state.scan_id, calibration_of(scan, error));
+  return answer_workpiece(scan, running_.finish(scan, background), background, settings_);
 }
 
 seam_t SeamFindingApp::take_background(const CollectedScan& scan) {
@@ -90,12 +97,10 @@ void SeamFindingApp::remember(const CollectedScan& scan) {
   backgrounds_.erase(backgrounds_.begin(), backgrounds_.end() - static_cast<std::ptrdiff_t>(kept));
 }
 
-const StoredBackground* SeamFindingApp::background_for(const CollectedScan& scan) const {
-  std::string error;
-  const std::string calibration = calibration_of(scan, error);
+const StoredBackground* SeamFindingApp::background_for(std::int64_t scan_id,
+                                                       const std::string& calibration) const {
   for (auto background = backgrounds_.rbegin(); background != backgrounds_.rend(); ++background)
-    if ((*background)->scan_id() < scan.state.scan_id &&
-        (*background)->calibration_id() == calibration)
+    if ((*background)->scan_id() < scan_id && (*background)->calibration_id() == calibration)
       return background->get();
   return nullptr;
 }

@@ -7,7 +7,7 @@
 #include <vector>
 
 #include "common/service.hpp"
-#include "services/seam_finding/scan_answer.hpp"
+#include "services/seam_finding/running_scan.hpp"
 #include "services/seam_finding/scan_store.hpp"
 
 namespace arcstart {
@@ -29,13 +29,16 @@ class SeamFindingApp : public App {
   void answer_decided();
   seam_t take_background(const CollectedScan& scan);
   void remember(const CollectedScan& scan);
-  const StoredBackground* background_for(const CollectedScan& scan) const;
+  const StoredBackground* background_for(std::int64_t scan_id,
+                                         const std::string& calibration) const;
+  seam_t take_workpiece(const CollectedScan& scan);
   void send(const seam_t& seam);
 
   Bus& bus_;
   SeamFindingSettings settings_;
   std::string seam_channel_;
   ScanCollector collector_;
+  RunningScan running_;
   ScanStore store_;
   std::vector<std::unique_ptr<StoredBackground>> backgrounds_;  // oldest first
 
