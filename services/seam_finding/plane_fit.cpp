@@ -14,6 +14,21 @@ void PlaneSums::add(const PlaneSums& other) {
   weight_ += other.weight_;
 }
 
+void PlaneSums::add(const std::vector<Eigen::Vector3d>& points, const std::vector<int>& chosen) {
+  double x = 0, y = 0, z = 0, xx = 0, xy = 0, xz = 0, yy = 0, yz = 0, zz = 0;
+  for (const int i : chosen) {
+    const double px = points[i].x() - origin_.x(), py = points[i].y() - origin_.y(),
+                 pz = points[i].z() - origin_.z();
+    x += px, y += py, z += pz;
+    xx += px * px, xy += px * py, xz += px * pz, yy += py * py, yz += py * pz, zz += pz * pz;
+  }
+  weight_ += static_cast<double>(chosen.size());
+  sum_ += Eigen::Vector3d(x, y, z);
+  Eigen::Matrix3d squares;
+  squares << xx, xy, xz, xy, yy, yz, xz, yz, zz;
+  squares_ += squares;
+}
+
 PlaneSums::Fit PlaneSums::fit() const {
   Fit fit;
   const Eigen::Vector3d mean = sum_ / weight_;

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <vector>
 
 #include "common/geometry.hpp"
 
@@ -19,6 +20,8 @@ class PlaneSums {
     sum_ += weight * p;
     squares_.noalias() += weight * p * p.transpose();
   }
+  // All of them that `chosen` names, one after the other.
+  void add(const std::vector<Eigen::Vector3d>& points, const std::vector<int>& chosen);
   void add(const PlaneSums& other);  // of any origin
 
   struct Fit {

@@ -13,9 +13,10 @@
 namespace arcstart {
 namespace {
 
-constexpr std::size_t kJury = 4096;      // points that judge a hypothesis
+constexpr std::size_t kMany = 16384;                     // points, of which a part tells enough
+constexpr std::size_t kJury = 4096, kJuryOfMany = 2048;  // points that judge a hypothesis
 constexpr std::size_t kFirstLook = 256;  // of those, after which a poor one is given up
-constexpr int kRefits = 5;
+constexpr int kRefits = 5, kRefitsOfMany = 3;
 
 // std::uniform_int_distribution and std::shuffle differ between standard libraries; this does not.
 class Dice {
@@ -44,7 +45,7 @@ Plane refit(const std::vector<Eigen::Vector3d>& points, const PlanePoints& side_
   std::vector<int> near;
   side_by_side.find_near(plane, tolerance, near);
   PlaneSums sums(points.front());
-  for (const int i : near) sums.add(points[i]);
+  sums.add(points, near);
   if (sums.weight() < 3) return plane;
   const auto fit = sums.fit();
   if (!(fit.spread[0] > 1e-6)) return plane;
@@ -107,7 +108,8 @@ class Jury {
 // more often than three drawn from all.
 std::optional<Plane> best_hypothesis(const std::vector<Eigen::Vector3d>& points,
                                      const PlaneSearch& search, Dice& dice) {
-  const std::size_t step = std::max<std::size_t>(1, (points.size() + kJury - 1) / kJury);
+  const std::size_t members = points.size() <= kMany ? kJury : kJuryOfMany;
+  const std::size_t step = std::max<std::size_t>(1, (points.size() + members - 1) / members);
   const std::vector<Eigen::Vector3d> sample = every(step, dice.below(step), points);
   Jury jury(shuffled(sample, dice), search,
             search.connection * std::sqrt(static_cast<double>(step)));
@@ -146,14 +148,18 @@ struct Sought {
 // told by their places among those sought.
 Face grow(Sought& sought, Plane plane, const PlaneSearch& search) {
   Face face;
-  for (int pass = 0; pass < kRefits; ++pass) {
+  std::vector<int> inside;
+  const int passes = sought.points.size() <= kMany ? kRefits : kRefitsOfMany;
+  for (int pass = 0; pass < passes; ++pass) {
     face.plane = plane;
     sought.left.find_near(plane, search.tolerance, face.points);
     sought.pieces.keep_largest(face.points);
     PlaneSums sums(face.points.empty() ? Eigen::Vector3d::Zero()
                                        : sought.points[face.points.front()]);
+    inside.clear();
     for (const int i : face.points)
-      if (!sought.segment_ends[i]) sums.add(sought.points[i]);
+      if (!sought.segment_ends[i]) inside.push_back(i);
+    sums.add(sought.points, inside);
     face.rms = 0;
     if (sums.weight() < 3) break;
     const auto fit = sums.fit();

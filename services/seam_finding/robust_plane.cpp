@@ -4,7 +4,7 @@
 #include <algorithm>
 #include <cmath>
 #include <cstring>
-#include <numeric>
+#include <utility>
 
 namespace arcstart {
 namespace {
@@ -30,7 +30,7 @@ Lanes4 load4(const float* from) {
 }
 
 // Points as heights above a first plane, at places in it: there all numbers are small or need not
-// be exact, so that floats do, side by side.
+// be exact, so that floats do, side by side. The line lies in that plane.
 class Heights {
  public:
   Heights(const std::vector<Eigen::Vector3d>& points, const Line& line, const Plane& first)
@@ -46,7 +46,7 @@ class Heights {
       a_[i] = static_cast<float>(along_.dot(p));
       b_[i] = static_cast<float>(across_.dot(p));
       h_[i] = static_cast<float>(normal_.dot(p));
-      distance_[i] = static_cast<float>(line.distance(points[i]));
+      distance_[i] = std::sqrt(b_[i] * b_[i] + h_[i] * h_[i]);
     }
     count_ = points.size();
   }
@@ -166,20 +166,20 @@ struct Strip {
 // The points' places in order of their distance from the line, as far as strips of equal numbers
 // need it.
 std::vector<int> order_by_strips(const Heights& points) {
-  std::vector<int> order(points.size());
-  std::iota(order.begin(), order.end(), 0);
-  const auto nearer = [&](int a, int b) {
-    return points.distance(static_cast<std::size_t>(a)) <
-           points.distance(static_cast<std::size_t>(b));
-  };
+  std::vector<std::pair<float, int>> order(points.size());
+  for (std::size_t i = 0; i < order.size(); ++i)
+    order[i] = {points.distance(i), static_cast<int>(i)};
   const auto border = [&](std::size_t strip) {
     return order.begin() + static_cast<std::ptrdiff_t>(order.size() * strip / kStrips);
   };
   for (std::size_t width = kStrips; width > 1; width /= 2)
     for (std::size_t k = 0; k < kStrips; k += width)
       if (border(k + width / 2) != border(k + width))
-        std::nth_element(border(k), border(k + width / 2), border(k + width), nearer);
-  return order;
+        std::nth_element(border(k), border(k + width / 2), border(k + width));
+  std::vector<int> places;
+  places.reserve(order.size());
+  for (const auto& [distance, place] : order) places.push_back(place);
+  return places;
 }
 
 // The points in strips of which most lie on one line, seen along the seam. The stripe's reflection

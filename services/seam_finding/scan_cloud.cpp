@@ -12,8 +12,9 @@ namespace {
 constexpr double kLeastMotion = 5;  // mm
 constexpr int kSamples = 400;       // places where the cloud is measured
 constexpr int kNeighbours = 8;
-constexpr int kMostSteps = 8192, kMostNeighbours = 32768;  // of a larger cloud so many points serve
-constexpr std::size_t kCrowd = 64;  // points of a cell that are looked at for the noise
+constexpr int kMostSteps = 8192;        // of a larger cloud so many serve
+constexpr int kNeighbourhoods = 16384;  // points that serve, of a cloud of more than twice as many
+constexpr std::size_t kCrowd = 64;      // points of a cell that are looked at for the noise
 
 double percentile(std::vector<double>& values, double share) {
   if (values.empty()) return 0;
@@ -73,7 +74,7 @@ double point_spacing(const ScanCloud& cloud) {
 double surface_noise(const ScanCloud& cloud, double radius) {
   if (!(radius > 0)) return 0;
   std::vector<Eigen::Vector3d> points;
-  const int every = 1 + cloud.size() / kMostNeighbours;
+  const int every = cloud.size() <= 2 * kNeighbourhoods ? 1 : cloud.size() / kNeighbourhoods;
   points.reserve(static_cast<std::size_t>(cloud.size() / every + 1));
   for (int i = 0; i < cloud.size(); i += every) points.push_back(cloud.points[i]);
   const NeighbourGrid grid(points, radius);
