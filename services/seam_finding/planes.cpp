@@ -13,10 +13,9 @@
 namespace arcstart {
 namespace {
 
-constexpr std::size_t kMany = 16384;                     // points, of which a part tells enough
-constexpr std::size_t kJury = 4096, kJuryOfMany = 2048;  // points that judge a hypothesis
+constexpr std::size_t kJury = 4096;      // points that judge a hypothesis
 constexpr std::size_t kFirstLook = 256;  // of those, after which a poor one is given up
-constexpr int kRefits = 5, kRefitsOfMany = 3;
+constexpr int kRefits = 5;
 
 // std::uniform_int_distribution and std::shuffle differ between standard libraries; this does not.
 class Dice {
@@ -108,8 +107,7 @@ class Jury {
 // more often than three drawn from all.
 std::optional<Plane> best_hypothesis(const std::vector<Eigen::Vector3d>& points,
                                      const PlaneSearch& search, Dice& dice) {
-  const std::size_t members = points.size() <= kMany ? kJury : kJuryOfMany;
-  const std::size_t step = std::max<std::size_t>(1, (points.size() + members - 1) / members);
+  const std::size_t step = std::max<std::size_t>(1, (points.size() + kJury - 1) / kJury);
   const std::vector<Eigen::Vector3d> sample = every(step, dice.below(step), points);
   Jury jury(shuffled(sample, dice), search,
             search.connection * std::sqrt(static_cast<double>(step)));
@@ -149,8 +147,7 @@ struct Sought {
 Face grow(Sought& sought, Plane plane, const PlaneSearch& search) {
   Face face;
   std::vector<int> inside;
-  const int passes = sought.points.size() <= kMany ? kRefits : kRefitsOfMany;
-  for (int pass = 0; pass < passes; ++pass) {
+  for (int pass = 0; pass < kRefits; ++pass) {
     face.plane = plane;
     sought.left.find_near(plane, search.tolerance, face.points);
     sought.pieces.keep_largest(face.points);
