@@ -17,6 +17,7 @@ constexpr double kFloor = 0.02;       // of an edge, whatever the number of its 
 // A stripe's last centre lies before the edge by `shortening_px`, square to it: by so much more or
 // less each, and all of an edge together, for light ends over edges in many ways; px.
 constexpr double kEndDeviation = 0.45, kShorteningDeviation = 0.25;
+constexpr int kSharpBeyond = 2;  // places
 constexpr double kOutlier = 3;   // standard deviations
 constexpr double kNearSeam = 3;  // of it stripes turn into the other plate; mm
 constexpr double kFarEdge = 3;   // a stripe that ends so near the plate's far edge ends there; mm
@@ -125,6 +126,8 @@ std::optional<Place> place_of(const ScanCloud& cloud, const std::vector<int>& ru
   const ScanStripe& stripe = cloud.stripes[cloud.origins[last].stripe];
   const bool more = beyond >= stripe.first && beyond < stripe.first + stripe.count;
   const bool joined = more && cloud.origins[beyond].segment == cloud.origins[last].segment;
+  if (joined && std::abs(plate.plane.signed_distance(cloud.points[beyond])) <= search.tolerance)
+    return std::nullopt;  // the plate goes on
   // Through the seam to the other plate.
   if (joined && std::binary_search(other.points.begin(), other.points.end(), beyond))
     return std::nullopt;
@@ -181,21 +184,26 @@ EdgeFit fit_edge(const std::vector<Place>& places, double noise) {
   return {(t * rr - r * rt) / determinant, (w * rt - r * t) / determinant, rr / determinant};
 }
 
+// Places of one edge; several that are sharp tell a plate's edge also where it was not expected.
 std::vector<Place> largest_agreement(const std::vector<Place>& places, const EdgeSearch& search) {
   std::vector<Place> best;
   double most = 0;
   for (const Place& one : places) {
-    if (one.along < search.from || one.along > search.to) continue;
+    if (one.along < search.from - search.beyond || one.along > search.to + search.beyond) continue;
     std::vector<Place> together;
     double weight = 0;
+    int sharp = 0;
     for (const Place& other : places) {
       const double allowed = kAgree + kAgreeSlope * std::abs(one.away - other.away) +
                              2 * (one.deviation + other.deviation);
       if (std::abs(one.along - other.along) > allowed) continue;
       together.push_back(other);
       weight += kAgree / (kAgree + other.deviation);
+      sharp += other.sharp;
     }
-    if (weight > most) most = weight, best = std::move(together);
+    const bool expected = one.along >= search.from && one.along <= search.to;
+    if ((expected || sharp >= kSharpBeyond) && weight > most)
+      most = weight, best = std::move(together);
   }
   return best;
 }

@@ -11,6 +11,7 @@ enum class SeamSide { kBegin = -1, kEnd = 1 };
 
 struct EdgeSearch {
   double from = 0, to = 0;   // along the line, where the edge may cross it; mm
+  double beyond = 0;         // so much farther if several stripes tell the same
   double tolerance = 0.5;    // of a point's distance from its plate; mm
   double noise = 0.05;       // of the points across their surface, standard deviation; mm
   double shortening_px = 0;  // a stripe's last centre lies so far before the edge, square to it

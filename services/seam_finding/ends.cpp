@@ -15,6 +15,7 @@ constexpr double kOffsets = 40;                // the others end so far about ea
 constexpr double kSameEdge = 2.5;              // standard deviations of their difference
 // A stripe shows a plate at the seam also where it leaves it a little before; mm along the seam.
 constexpr double kMargin = 0.5;
+constexpr double kBeyond = 3;       // stripe spacings
 constexpr double kMostSlant = 0.5;  // of that for each mm before it
 
 // What the stripes say of where a plate begins at the seam. Places count outward: they rise toward
@@ -118,6 +119,7 @@ SeamEnd find_end(const ScanCloud& cloud, const std::array<JointPlate, 2>& plates
     const double outer = brackets[j].outer + outward * std::max(margin, width);
     edge_search.from = std::min(inner, outer);
     edge_search.to = std::max(inner, outer);
+    edge_search.beyond = kBeyond * width;
     edge_search.tolerance = search.tolerance;
     edge_search.noise = search.noise;
     edge_search.shortening_px = search.shortening_px;
@@ -126,6 +128,7 @@ SeamEnd find_end(const ScanCloud& cloud, const std::array<JointPlate, 2>& plates
   // Of single stripes, the one that agrees with the other plate's edge.
   for (int j = 0; j < 2; ++j) {
     if (!edges[0] || !edges[1] || edges[j]->stripes > 1 || edges[1 - j]->stripes < 2) continue;
+    searches[j].beyond = 0;
     searches[j].from = edges[1 - j]->along - kFlushWithin;
     searches[j].to = edges[1 - j]->along + kFlushWithin;
     if (const auto flush = find_edge(cloud, plates[j], plates[1 - j], line, side, searches[j]))

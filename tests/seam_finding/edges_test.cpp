@@ -55,13 +55,13 @@ TEST_CASE("the edge of a plate is found to a fraction of the stripes' distance")
       const double begin = 0.17 * seed;
       const Made made = make(begin, slant, false, seed);
       const auto edge = find_edge(made.cloud, made.plate, made.other, made.line, SeamSide::kBegin,
-                                  {begin - 3, begin + 3, 0.5, 0.02, 0.15});
+                                  {begin - 3, begin + 3, 0, 0.5, 0.02, 0.15});
       REQUIRE(edge);
       CHECK(edge->along == Approx(begin).margin(0.15));
       CHECK_FALSE(edge->occluded);
       within += std::pow(edge->along - begin, 2) <= 4 * edge->variance;
       const auto end = find_edge(made.cloud, made.plate, made.other, made.line, SeamSide::kEnd,
-                                 {97, 103, 0.5, 0.02, 0.15});
+                                 {97, 103, 0, 0.5, 0.02, 0.15});
       REQUIRE(end);
       CHECK(end->along == Approx(100).margin(0.15));
     }
@@ -72,10 +72,10 @@ TEST_CASE("the edge of a plate is found to a fraction of the stripes' distance")
 TEST_CASE("stripes square to the seam cross no edge; what lies before a plate hides its edge") {
   CHECK_FALSE(find_edge(make(0, 0, false, 1).cloud, make(0, 0, false, 1).plate,
                         make(0, 0, false, 1).other, {{0, 0, 0}, {1, 0, 0}}, SeamSide::kBegin,
-                        {-3, 3, 0.5, 0.02, 0.5}));
+                        {-3, 3, 0, 0.5, 0.02, 0.5}));
   const Made hidden = make(2, 0.3, true, 3);
   const auto edge = find_edge(hidden.cloud, hidden.plate, hidden.other, hidden.line,
-                              SeamSide::kBegin, {-1, 5, 0.5, 0.02, 0.5});
+                              SeamSide::kBegin, {-1, 5, 0, 0.5, 0.02, 0.5});
   REQUIRE(edge);
   CHECK(edge->occluded);
 }
@@ -83,9 +83,9 @@ TEST_CASE("stripes square to the seam cross no edge; what lies before a plate hi
 TEST_CASE("there is no edge where none is expected, nor in a cloud without stripes") {
   const Made made = make(2, 0.3, false, 5);
   CHECK_FALSE(find_edge(made.cloud, made.plate, made.other, made.line, SeamSide::kBegin,
-                        {40, 46, 0.5, 0.02, 0.5}));
+                        {40, 46, 0, 0.5, 0.02, 0.5}));
   ScanCloud loose = made.cloud;
   loose.stripes.clear();
   CHECK_FALSE(find_edge(loose, made.plate, made.other, made.line, SeamSide::kBegin,
-                        {-1, 5, 0.5, 0.02, 0.5}));
+                        {-1, 5, 0, 0.5, 0.02, 0.5}));
 }
