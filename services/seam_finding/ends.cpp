@@ -15,7 +15,8 @@ constexpr double kOffsets = 40;                // the others end so far about ea
 constexpr double kSameEdge = 2.5;              // standard deviations of their difference
 // A stripe shows a plate at the seam also where it leaves it a little before; mm along the seam.
 constexpr double kMargin = 0.5;
-constexpr double kBeyond = 3;       // stripe spacings
+constexpr double kUnseen = 2;  // a stripe that leaves a plate so near may not show it; of `near`
+constexpr double kBeyond = 3;  // stripe spacings
 constexpr double kMostSlant = 0.5;  // of that for each mm before it
 
 // What the stripes say of where a plate begins at the seam. Places count outward: they rise toward
@@ -155,7 +156,9 @@ SeamEnd find_end(const ScanCloud& cloud, const std::array<JointPlate, 2>& plates
   end.variance = edge.variance;
   for (int j = 0; j < 2; ++j)
     if (!edges[j] && !brackets[j].runs_on)
-      limit_by_bracket(end, brackets[j], kMargin + kMostSlant * stations.near[j], outward);
+      limit_by_bracket(end, brackets[j],
+                       kUnseen * stations.near[j] * std::max(0.0, outward * stations.slant[j]),
+                       outward);
   if (edge.occluded) end.visibility = EndVisibility::kHidden;
   return end;
 }

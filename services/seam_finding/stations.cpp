@@ -132,8 +132,10 @@ Stations stripe_stations(const ScanCloud& cloud, const std::array<JointPlate, 2>
       sights_of(cloud, plates[1], plates[0], line, search.tolerance)};
   const Places places = carried_crossings(cloud, seen_crossings(sights, plates), line);
   Stations found;
-  for (int j = 0; j < 2; ++j)
+  for (int j = 0; j < 2; ++j) {
+    found.slant[j] = slant_of(sights[j]);
     found.near[j] = near_limit(sights[j], search.tolerance, plates[j].contact);
+  }
   std::vector<Station>& stations = found.list;
   stations.resize(cloud.stripes.size());
   for (int k = 0; k < static_cast<int>(stations.size()); ++k)

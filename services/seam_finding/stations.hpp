@@ -46,6 +46,8 @@ struct Stations {
   // A plate is at a station where its nearest point is no farther from the line than a stripe's
   // points are from each other; else the stripe leaves the plate before it crosses the seam. mm
   std::array<double, 2> near{};
+  // At which stripes cross each plate: mm along the line for each mm away from it.
+  std::array<double, 2> slant{};
 
   bool both(const Station& station) const {
     return station.nearest[0] <= near[0] && station.nearest[1] <= near[1];
