@@ -22,6 +22,7 @@ constexpr double kOutlier = 3;   // standard deviations
 constexpr double kNearSeam = 3;  // of it stripes turn into the other plate; mm
 constexpr double kFarEdge = 3;   // a stripe that ends so near the plate's far edge ends there; mm
 constexpr double kLeastDrop = 0.5;  // between points on a cut; mm
+constexpr int kMostOnCut = 20;      // points
 constexpr double kCutSlant = 0.15;  // of a cut, mm along the seam for each mm of its depth
 constexpr double kCutNoise = 0.1;   // of a cut's place along the seam; mm
 constexpr double kBeam = 0.5;  // of a point's noise across its surface what it is along the seam
@@ -70,23 +71,27 @@ double thinned_step(const ScanCloud& cloud, const std::vector<int>& run) {
   return *middle;
 }
 
-// Where along the seam the cut is over whose edge the stripe turns, from its next two points: a cut
-// is square to the plate, so that what lies on it lies at the edge.
+// Where along the seam the cut is over whose edge the stripe turns, from its next points: a cut is
+// square to the plate, so that what lies on it lies at the edge.
 std::optional<double> cut_beyond(const ScanCloud& cloud, const JointPlate& plate, const Line& line,
                                  int last, bool at_back, const EdgeSearch& search) {
-  const int one = at_back ? last + 1 : last - 1, two = at_back ? last + 2 : last - 2;
-  const auto joined = [&](int i) {
-    return i >= 0 && i < cloud.size() && cloud.origins[i].stripe == cloud.origins[last].stripe &&
-           cloud.origins[i].segment == cloud.origins[last].segment;
-  };
-  if (!joined(one) || !joined(two)) return std::nullopt;
-  const double below = -plate.plane.signed_distance(cloud.points[one]);
-  const double deeper = -plate.plane.signed_distance(cloud.points[two]);
-  const double apart = line.along(cloud.points[one]) - line.along(cloud.points[two]);
-  if (deeper - below < kLeastDrop ||
-      std::abs(apart) > kCutSlant * (deeper - below) + kOutlier * kBeam * search.noise)
-    return std::nullopt;
-  return (line.along(cloud.points[one]) + line.along(cloud.points[two])) / 2;
+  const int step = at_back ? 1 : -1;
+  double sum = 0, first_along = 0, first_depth = 0;
+  for (int k = 1; k <= kMostOnCut; ++k) {
+    const int i = last + k * step;
+    if (i < 0 || i >= cloud.size() || cloud.origins[i].stripe != cloud.origins[last].stripe ||
+        cloud.origins[i].segment != cloud.origins[last].segment)
+      break;
+    const double along = line.along(cloud.points[i]);
+    const double depth = -plate.plane.signed_distance(cloud.points[i]);
+    if (k == 1) first_along = along, first_depth = depth;
+    sum += along;
+    const double drop = depth - first_depth;
+    if (drop < kLeastDrop) continue;
+    if (std::abs(along - first_along) > kCutSlant * drop + kOutlier * kBeam * search.noise) break;
+    return sum / k;
+  }
+  return std::nullopt;
 }
 
 // Where the light at a segment's end lies. Of a stripe that is cut off at a slant the last of the
@@ -238,8 +243,9 @@ std::optional<PlateEdge> find_edge(const ScanCloud& cloud, const JointPlate& pla
     if (const auto place = place_of(cloud, run, plate, other, line, side, search))
       if (place->away < far && (place->sharp || place->away > kNearSeam)) places.push_back(*place);
   std::vector<Place> on_edge = largest_agreement(places, search);
-  // A lone stripe that ends beside the seam ends for another reason.
-  if (on_edge.size() == 1 && on_edge[0].away <= kNearSeam) return std::nullopt;
+  // A lone stripe that ends beside the seam, or cannot be seen to, ends for another reason.
+  if (on_edge.size() == 1 && (on_edge[0].away <= kNearSeam || !on_edge[0].sharp))
+    return std::nullopt;
 
   PlateEdge edge;
   for (int pass = 0; pass < 3 && !on_edge.empty(); ++pass) {

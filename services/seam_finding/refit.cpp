@@ -52,6 +52,29 @@ std::vector<int> difference(const std::vector<int>& points, const std::vector<in
   return left;
 }
 
+// The plate's points, and those next to them in their stripe that lie on it before the other plate:
+// where it was laid out another plane may have taken them. Rising.
+std::vector<int> grown_along_stripes(const ScanCloud& cloud, const JointPlate& plate,
+                                     const JointPlate& other, double tolerance) {
+  std::vector<int> grown;
+  const auto goes_on = [&](int i, int from) {
+    return i >= 0 && i < cloud.size() && cloud.origins[i].stripe == cloud.origins[from].stripe &&
+           cloud.origins[i].segment == cloud.origins[from].segment &&
+           std::abs(plate.plane.signed_distance(cloud.points[i])) <= tolerance &&
+           other.plane.signed_distance(cloud.points[i]) > tolerance;
+  };
+  for (std::size_t k = 0; k < plate.points.size(); ++k) {
+    const int point = plate.points[k];
+    const int taken = grown.empty() ? -1 : grown.back();
+    const int next = k + 1 < plate.points.size() ? plate.points[k + 1] : cloud.size();
+    int first = point, last = point;
+    while (first - 1 > taken && goes_on(first - 1, point)) --first;
+    while (last + 1 < next && goes_on(last + 1, point)) ++last;
+    for (int i = first; i <= last; ++i) grown.push_back(i);
+  }
+  return grown;
+}
+
 }  // namespace
 
 void refit_joint(const ScanCloud& cloud, Joint& joint, const Refit& refit,
@@ -80,6 +103,10 @@ void refit_joint(const ScanCloud& cloud, Joint& joint, const Refit& refit,
     const bool along = line->direction.dot(joint.line.direction) > 0;
     joint.line = {line->point, along ? line->direction : Eigen::Vector3d(-line->direction)};
     joint.angle = open_angle(joint);
+    if (cloud.organised())
+      for (int j = 0; j < 2; ++j)
+        joint.plates[j].points =
+            grown_along_stripes(cloud, joint.plates[j], joint.plates[1 - j], refit.tolerance);
     joint.course = find_course(cloud, joint.plates, joint.line, search);
     if (joint.course.stripes == 0) return;
   }
