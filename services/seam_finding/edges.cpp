@@ -16,7 +16,7 @@ constexpr int kPriorPlaces = 2;       // with that noise, in the estimate of the
 constexpr double kFloor = 0.02;       // of an edge, whatever the number of its places; mm
 // A stripe's last centre lies before the edge by `shortening_px`, square to it: by so much more or
 // less each, and all of an edge together, for light ends over edges in many ways; px.
-constexpr double kEndDeviation = 0.45, kShorteningDeviation = 0.25;
+constexpr double kEndDeviation = 0.35, kShorteningDeviation = 0.18;
 constexpr int kSharpBeyond = 2;  // places
 constexpr double kOutlier = 3;   // standard deviations
 constexpr double kNearSeam = 3;  // of it stripes turn into the other plate; mm
@@ -24,7 +24,7 @@ constexpr double kFarEdge = 3;   // a stripe that ends so near the plate's far e
 constexpr double kLeastDrop = 0.5;  // between points on a cut; mm
 constexpr int kMostOnCut = 20;      // points
 constexpr double kCutSlant = 0.15;  // of a cut, mm along the seam for each mm of its depth
-constexpr double kCutNoise = 0.1;   // of a cut's place along the seam; mm
+constexpr double kCutNoise = 0.07;   // of a cut's place along the seam; mm
 constexpr double kBeam = 0.5;  // of a point's noise across its surface what it is along the seam
 constexpr double kChord = 3;   // over which a stripe's direction is taken; mm
 constexpr double kLeastSight = 0.1;   // sine of the angle between a line of sight and a plate

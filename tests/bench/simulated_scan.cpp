@@ -76,7 +76,7 @@ void SimulatedScan::publish_scan(std::int8_t state, SceneKind kind, std::int64_t
   message.kind = kind == SceneKind::background ? scan_t::BACKGROUND : scan_t::WORKPIECE;
   message.end_utime = state == scan_t::ENDED ? now : 0;
   message.first_seq = images > 0 ? first_seq_ : -1;
-  message.last_seq = images > 0 ? image_seq_ - 1 : -1;
+  message.last_seq = images > 0 ? last_seq_ : -1;
   message.images = images;
   message.lost = frames_lost_;
   if (state == scan_t::ENDED) message.end_reason = "tool stood still";
@@ -105,9 +105,13 @@ void SimulatedScan::publish_image(const Scene& scene, const RigidTransform& T_ba
   const TrueSensor& sensor = renderer_.sensor();
   if (lost(settings_.frames_lost_share)) {
     ++image_seq_;
-    ++frames_lost_;
+    ++gap_;
     return;
   }
+  // A frame is missed when the next one comes.
+  frames_lost_ += gap_;
+  gap_ = 0;
+  last_seq_ = image_seq_;
   image_t message{};
   message.utime = middle + seconds_to_us(settings_.image_delay_s);
   message.run_id = kRunId;
@@ -145,7 +149,7 @@ void SimulatedScan::run(SceneKind kind) {
   };
   publish_scan(scan_t::SCANNING, kind, clock_, 0);
   first_seq_ = image_seq_;
-  frames_lost_ = 0;
+  frames_lost_ = gap_ = 0;
   draw_robot_error(kind);
   int images = 0, positions = -50;  // a second of positions before the scan
   const double last = duration + 1;

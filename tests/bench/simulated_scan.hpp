@@ -62,8 +62,9 @@ class SimulatedScan {
   std::uint64_t seed_;
   ImageRenderer renderer_;
   std::int64_t clock_ = 1'700'000'000'000'000;  // us, UTC
-  std::int64_t scan_id_ = 0, image_seq_ = 0, pose_seq_ = 0, first_seq_ = 0;
+  std::int64_t scan_id_ = 0, image_seq_ = 0, pose_seq_ = 0, first_seq_ = 0, last_seq_ = 0;
   int frames_lost_ = 0;                                      // of this scan
+  int gap_ = 0;                                              // frames lost since the last that came
   RigidTransform robot_error_ = RigidTransform::Identity();  // of this scan
 };
 
