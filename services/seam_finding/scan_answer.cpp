@@ -6,6 +6,7 @@
 
 #include "services/seam_finding/cloud_builder.hpp"
 #include "services/seam_finding/seam_message.hpp"
+#include "services/seam_finding/systematic_message.hpp"
 
 namespace arcstart {
 namespace {
@@ -133,8 +134,8 @@ seam_t answer_background(const CollectedScan& scan, const std::string& error) {
 }
 
 seam_t answer_workpiece(const CollectedScan& scan, const StoredBackground* background,
-                        const SeamFindingSettings& settings) {
-  return answer_workpiece(scan, prepare(scan, background), background, settings);
+                        const SeamFindingSettings& settings, const Calibration* calibration) {
+  return answer_workpiece(scan, prepare(scan, background), background, settings, calibration);
 }
 
 PreparedScan prepare(const CollectedScan& scan, const StoredBackground* background) {
@@ -144,7 +145,8 @@ PreparedScan prepare(const CollectedScan& scan, const StoredBackground* backgrou
 }
 
 seam_t answer_workpiece(const CollectedScan& scan, PreparedScan prepared,
-                        const StoredBackground* background, const SeamFindingSettings& settings) {
+                        const StoredBackground* background, const SeamFindingSettings& settings,
+                        const Calibration* calibration) {
   seam_t seam = empty_answer(scan);
   if (!scan.refusal.empty()) return refused(seam, scan.refusal);
   std::string error;
@@ -173,6 +175,7 @@ seam_t answer_workpiece(const CollectedScan& scan, PreparedScan prepared,
   if (scan.state.end_reason == "camera lost") seam.remark += "the camera was lost in the scan; ";
   fill_in(seam, find_seam(cloud, std::move(prepared.division), settings,
                           static_cast<std::uint64_t>(scan.state.scan_id)));
+  fill_in_systematic(seam, scan, calibration);
   return seam;
 }
 

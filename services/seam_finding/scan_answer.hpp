@@ -5,6 +5,7 @@
 #include <memory>
 #include <string>
 
+#include "common/calibration.hpp"
 #include "services/seam_finding/background.hpp"
 #include "services/seam_finding/find_seam.hpp"
 #include "services/seam_finding/scan_collector.hpp"
@@ -57,12 +58,14 @@ struct PreparedScan {
 };
 PreparedScan prepare(const CollectedScan& scan, const StoredBackground* background);
 
-// The answer to a workpiece scan; background: nullptr where there is none. prepared: by that
-// background.
+// The answer to a workpiece scan; background, calibration of the scan: nullptr where there is none.
+// prepared: by that background.
 seam_t answer_workpiece(const CollectedScan& scan, PreparedScan prepared,
-                        const StoredBackground* background, const SeamFindingSettings& settings);
+                        const StoredBackground* background, const SeamFindingSettings& settings,
+                        const Calibration* calibration = nullptr);
 seam_t answer_workpiece(const CollectedScan& scan, const StoredBackground* background,
-                        const SeamFindingSettings& settings);
+                        const SeamFindingSettings& settings,
+                        const Calibration* calibration = nullptr);
 // The receipt for a background scan; error: why it cannot serve, empty where it is stored.
 seam_t answer_background(const CollectedScan& scan, const std::string& error);
 

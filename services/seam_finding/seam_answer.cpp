@@ -149,8 +149,7 @@ void answer(SeamResult& result, const ScanCloud& scan, const Joint& joint, const
                           {one_plane ? 0 : settings.torch_work_angle_deg * kDegree,
                            settings.torch_travel_angle_deg * kDegree, settings.approach_mm});
   if (joint.flat) result.remark += flat_in_words(joint);
-  result.remark += "not determined: systematic deviations";
-  if (result.gap < 0) result.remark += ", gap";
+  if (result.gap < 0) result.remark += "gap not determined; ";
 }
 
 }  // namespace arcstart

@@ -3,11 +3,13 @@
 #include <fmt/format.h>
 #include <spdlog/spdlog.h>
 
+#include "common/calibration_message.hpp"
 #include "common/time.hpp"
 
 namespace arcstart {
 namespace {
 
+constexpr std::size_t kCalibrations = 4;         // kept, by id
 constexpr std::int64_t kRepetition = 1'000'000;  // us
 constexpr std::size_t kMostPoints = 1'000'000;   // of all backgrounds in memory but the newest
 
@@ -34,6 +36,8 @@ SeamFindingApp::SeamFindingApp(Bus& bus, const SeamFindingSettings& settings,
   next_repeat_ = steady_now() + kRepetition;
   bus.subscribe<scan_t>(instance.sensor_channel("SCAN"), Queue::measurements(),
                         [this](const scan_t& state) { take(state); });
+  bus.subscribe<calibration_t>(instance.sensor_channel("CALIBRATION"), Queue::measurements(),
+                               [this](const calibration_t& message) { take(message); });
   bus.subscribe<profile_t>(instance.sensor_channel("PROFILE"), Queue::measurements(),
                            [this](const profile_t& profile) { take(profile); });
 }
@@ -56,6 +60,17 @@ void SeamFindingApp::take(const profile_t& profile) {
   answer_decided();
 }
 
+// Tells how sure the answer is, no more: reconstruction says what is wrong with a calibration.
+void SeamFindingApp::take(const calibration_t& message) {
+  std::erase_if(calibrations_, [&](const Calibration& one) { return one.id == message.id; });
+  try {
+    calibrations_.push_back(calibration_from_message(message));
+  } catch (const CalibrationError&) {
+    return;
+  }
+  if (calibrations_.size() > kCalibrations) calibrations_.erase(calibrations_.begin());
+}
+
 void SeamFindingApp::answer_decided() {
   while (const auto scan = collector_.next())
     send(scan->state.kind == scan_t::BACKGROUND ? take_background(*scan) : take_workpiece(*scan));
@@ -65,7 +80,8 @@ seam_t SeamFindingApp::take_workpiece(const CollectedScan& scan) {
   std::string error;
   const StoredBackground* background =
       background_for(scan.state.scan_id, calibration_of(scan, error));
-  return answer_workpiece(scan, running_.finish(scan, background), background, settings_);
+  return answer_workpiece(scan, running_.finish(scan, background), background, settings_,
+                          calibration_for(scan));
 }
 
 seam_t SeamFindingApp::take_background(const CollectedScan& scan) {
@@ -95,6 +111,14 @@ void SeamFindingApp::remember(const CollectedScan& scan) {
     ++kept;
   }
   backgrounds_.erase(backgrounds_.begin(), backgrounds_.end() - static_cast<std::ptrdiff_t>(kept));
+}
+
+const Calibration* SeamFindingApp::calibration_for(const CollectedScan& scan) const {
+  std::string error;
+  const std::string id = calibration_of(scan, error);
+  for (const Calibration& calibration : calibrations_)
+    if (calibration.id == id) return &calibration;
+  return nullptr;
 }
 
 const StoredBackground* SeamFindingApp::background_for(std::int64_t scan_id,

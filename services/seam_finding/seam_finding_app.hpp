@@ -1,11 +1,13 @@
-// The service `seam_finding`: <SENSOR>_PROFILE and <SENSOR>_SCAN in, <SENSOR>_SEAM out, one for
-// each scan.
+// The service `seam_finding`: <SENSOR>_PROFILE, _SCAN and _CALIBRATION in, <SENSOR>_SEAM out, one
+// for each scan.
 #pragma once
 
+#include <arcstart/calibration_t.hpp>
 #include <memory>
 #include <string>
 #include <vector>
 
+#include "common/calibration.hpp"
 #include "common/service.hpp"
 #include "services/seam_finding/running_scan.hpp"
 #include "services/seam_finding/scan_store.hpp"
@@ -26,9 +28,11 @@ class SeamFindingApp : public App {
  private:
   void take(const scan_t& state);
   void take(const profile_t& profile);
+  void take(const calibration_t& message);
   void answer_decided();
   seam_t take_background(const CollectedScan& scan);
   void remember(const CollectedScan& scan);
+  const Calibration* calibration_for(const CollectedScan& scan) const;
   const StoredBackground* background_for(std::int64_t scan_id,
                                          const std::string& calibration) const;
   seam_t take_workpiece(const CollectedScan& scan);
@@ -41,6 +45,7 @@ class SeamFindingApp : public App {
   RunningScan running_;
   ScanStore store_;
   std::vector<std::unique_ptr<StoredBackground>> backgrounds_;  // oldest first
+  std::vector<Calibration> calibrations_;                       // newest last
 
   std::vector<std::uint8_t> answer_;  // as sent, empty once the next scan has started
   std::int64_t answered_scan_ = 0;

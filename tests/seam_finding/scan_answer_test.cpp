@@ -111,6 +111,39 @@ TEST_CASE("course, stations and torch are told") {
   CHECK(std::equal(std::begin(seam.start), std::end(seam.start), seam.torch_position));
 }
 
+TEST_CASE("systematic deviations come from the covariance of the scan's calibration") {
+  const Scans scans;
+  const StoredBackground background(scans.empty, {});
+  Calibration calibration;
+  calibration.id = ScanIdentity{}.calibration_id;
+  calibration.sensor_model = {1600, 1200, 2400, 2400, 800, 600, {}, {{0, 0.4, -0.9165}, 275}};
+  const auto answer = [&] { return answer_workpiece(scans.work, &background, {}, &calibration); };
+  CHECK(answer().start_systematic[0][0] == -1);
+  CHECK_THAT(answer().remark, Catch::Contains("the calibration has no covariance"));
+
+  // The hand-eye's position alone: the start is as unsure as that.
+  calibration.covariance.assign(Calibration::kParameters * Calibration::kParameters, 0);
+  for (int i = 15; i < 18; ++i)
+    calibration.covariance[static_cast<std::size_t>(i * (Calibration::kParameters + 1))] = 0.04;
+  const seam_t seam = answer();
+  for (int row = 0; row < 3; ++row)
+    for (int column = 0; column < 3; ++column) {
+      CHECK(seam.start_systematic[row][column] == Approx(row == column ? 0.04 : 0).margin(1e-6));
+      CHECK(seam.end_systematic[row][column] == Approx(row == column ? 0.04 : 0).margin(1e-6));
+    }
+  CHECK_THAT(seam.remark, !Catch::Contains("systematic"));
+
+  // So late as the tool moves on in the time offset's deviation.
+  std::fill(calibration.covariance.begin(), calibration.covariance.end(), 0);
+  calibration.covariance.back() = 1e-6;  // 1 ms
+  const double speed = 3.6 / 0.071;      // mm/s
+  CHECK(answer().start_systematic[0][0] == Approx(std::pow(speed * 1e-3, 2)).epsilon(0.05));
+
+  calibration.id = "another";
+  CHECK(answer().start_systematic[0][0] == -1);
+  CHECK_THAT(answer().remark, Catch::Contains("not heard of"));
+}
+
 TEST_CASE("what is not determined says so") {
   const seam_t seam = Scans().answer();
   CHECK(seam.end_systematic[0][0] == -1);
