@@ -54,8 +54,9 @@ struct SeamFindingSettings {
   std::string start_rule = "edges";
   int start_points = 10;  // x
   // The detector's last centre of a segment lies so many pixels before the edge of what it lies on,
-  // square to the edge in the image, whatever the slant at which the stripe crosses it.
-  double edge_shortening_px = 0.8;
+  // square to the edge in the image, whatever the slant at which the stripe crosses it. A third of
+  // the sigma at which the detector measures its centres.
+  double edge_shortening_px = 0.5;
 
   // Torch.
   double torch_work_angle_deg = 0;     // between it and the flatter plate; 0: in the middle of both

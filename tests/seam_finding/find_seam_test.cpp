@@ -95,16 +95,16 @@ std::vector<Row> rows() {
   const SceneChoice none, tool{.tool = true};
   const ScanChoice usual, noisy{.noise = 0.3};
   return {
-      {"no clutter", none, usual, 50, 0.3, 2.2, 0.05, 0.05},
-      {"tool", tool, usual, 50, 0.3, 2.2, 0.05, 0.05},
-      {"tool, noise 0.3 mm", tool, noisy, 50, 0.4, 4.2, 0.15, 0.1},
+      {"no clutter", none, usual, 50, 0.15, 0.6, 0.05, 0.05},
+      {"tool", tool, usual, 50, 0.15, 0.6, 0.05, 0.05},
+      {"tool, noise 0.3 mm", tool, noisy, 50, 0.2, 0.6, 0.15, 0.12},
       {"box larger than the work", {.big_box = true}, usual, 50, 0.4, 3.2, 0.05, 0.06},
       {"base begins earlier", {.tool = true, .base_overhang = 10}, usual, 20, 0.3, 1, 0.05, 0.05},
       {"base begins later", {.tool = true, .base_overhang = -10}, usual, 20, 0.3, 2.2, 0.06, 0.06},
-      {"75 deg", {.tilt_deg = 75}, usual, 20, 0.4, 2.2, 0.05, 0.05},
-      {"105 deg", {.tilt_deg = 105}, usual, 20, 0.4, 2.2, 0.05, 0.05},
-      {"M = 5", tool, {.thin = 5}, 20, 0.3, 2.2, 0.05, 0.05},
-      {"M = 20", tool, {.thin = 20}, 20, 0.4, 2.2, 0.06, 0.05},
+      {"75 deg", {.tilt_deg = 75}, usual, 20, 0.2, 0.8, 0.05, 0.05},
+      {"105 deg", {.tilt_deg = 105}, usual, 20, 0.2, 0.8, 0.05, 0.05},
+      {"M = 5", tool, {.thin = 5}, 20, 0.15, 0.6, 0.05, 0.05},
+      {"M = 20", tool, {.thin = 20}, 20, 0.15, 0.6, 0.06, 0.05},
       {"M = 1", tool, {.thin = 1}, 4, 0.2, 0.5, 0.05, 0.05},
       {"10 mm/s", tool, {.pitch = 0.72}, 6, 0.2, 0.7, 0.05, 0.05},
       {"100 mm/s", tool, {.pitch = 7.2}, 20, 0.9, 7.2, 0.1, 0.08},

@@ -167,7 +167,7 @@ SyntheticScan make_scan(const Scene& scene, const ScanChoice& choice, std::uint6
     for (auto& segment : segments) {
       for (const bool front : {true, false}) {
         const std::size_t lost =
-            std::min<std::size_t>(segment.size(), random.between(0, 1) < 0.6 ? 1 : 2);
+            std::min<std::size_t>(segment.size(), random.between(0, 1) < 0.3 ? 0 : 1);
         const auto count = static_cast<std::ptrdiff_t>(lost);
         if (front)
           segment.erase(segment.begin(), segment.begin() + count);

@@ -1,7 +1,7 @@
 // Scans of a scene of boxes on an uneven table, in closed form: a fan of laser rays in each
 // stripe's plane, the first box it meets, and whether the camera sees that point. A segment loses
-// its last centre or two, as in images that go through the detector: square to the edge it ends 0.8
-// px before it. No image, no code of the product beside its cloud.
+// its last centre, as in images that go through the detector: square to the edge it ends half
+// a pixel before it. No image, no code of the product beside its cloud.
 #pragma once
 
 #include <Eigen/Geometry>
