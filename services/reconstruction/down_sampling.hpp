@@ -10,6 +10,9 @@ namespace arcstart {
 // Of each segment the centres 0, M, 2M ... and the last, in their order; its first and last are
 // marked as its ends. A plate's edge is seen at a segment's end: kept, it costs the seam no
 // accuracy whatever M is.
-std::vector<ReceivedCentre> down_sample(const std::vector<ReceivedCentre>& centres, int keep_every);
+// bend_px: where the stripe departs farther than this from the straight line between two that are
+// kept, the farthest is kept as well, and so on between these; 0 for none.
+std::vector<ReceivedCentre> down_sample(const std::vector<ReceivedCentre>& centres, int keep_every,
+                                        double bend_px = 0);
 
 }  // namespace arcstart

@@ -26,7 +26,7 @@ void Reconstruction::take_calibration(std::shared_ptr<const Calibration> calibra
 }
 
 void Reconstruction::take_stripe(ReceivedStripe stripe) {
-  stripe.centres = down_sample(stripe.centres, settings_.keep_every);
+  stripe.centres = down_sample(stripe.centres, settings_.keep_every, settings_.keep_bend_px);
   pending_.add(std::move(stripe), trajectory_, calibrations_);
   pending_.decide(trajectory_, calibrations_);
 }

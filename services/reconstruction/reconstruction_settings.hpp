@@ -9,6 +9,10 @@ struct ReconstructionSettings {
   // M of the down-sampling: of each segment the centres 0, M, 2M ... and the last are kept; 1 keeps
   // all.
   int keep_every = 15;
+  // A centre between two that are kept is kept as well where the stripe departs so far from the
+  // straight line between them; px, 0 for none. The gap of a butt joint narrower than M centres
+  // shows in no other way: 1 for those.
+  double keep_bend_px = 0;
   // How long positions are kept for stripes that come late.
   double keep_positions_s = 10;
   // The two positions around a stripe may be so far apart; above it the profile is empty.
@@ -27,6 +31,7 @@ struct ReconstructionSettings {
   template <class Visitor>
   void visit(Visitor& visitor) {
     visitor("keep_every", keep_every, between(1, 10000));
+    visitor("keep_bend_px", keep_bend_px, between(0, 100));
     visitor("keep_positions_s", keep_positions_s, between(0.5, 60));
     visitor("largest_gap_ms", largest_gap_ms, between(1, 1000));
     visitor("wait_for_calibration_s", wait_for_calibration_s, between(0, 30));

@@ -24,6 +24,7 @@ constexpr double kNearNoise = 4;        // of a point on a plate, over the noise
 constexpr double kLeastNear = 0.15;     // mm
 constexpr double kEndDeviation = 0.25;  // of a stripe's end at a gap, standard; mm
 constexpr double kStepMargin = 1.2;     // steps
+constexpr double kLeastSlack = 1;       // a stripe's end is lost before an edge; mm
 constexpr double kHiddenFoot = 0.5;     // of a lap's score: whoever scans one looks at its foot
 constexpr double kShadow = 2;           // beside a step, over its height
 
@@ -279,7 +280,7 @@ double running_on(const ScanCloud& cloud, const JointPlate& plate, double tolera
   if (steps.empty()) return plate.contact;
   const auto high = steps.begin() + static_cast<std::ptrdiff_t>(9 * (steps.size() - 1) / 10);
   std::nth_element(steps.begin(), high, steps.end());
-  return std::min(plate.contact, tolerance + kStepMargin * *high);
+  return std::min(plate.contact, tolerance + std::max(kLeastSlack, kStepMargin * *high));
 }
 
 bool parallel(const Face& a, const Face& b, double tolerance) {

@@ -1,6 +1,8 @@
 #include "services/reconstruction/down_sampling.hpp"
 
+#include <algorithm>
 #include <catch2/catch.hpp>
+#include <cmath>
 #include <set>
 
 using namespace arcstart;
@@ -42,4 +44,25 @@ TEST_CASE("every segment keeps its centres 0, M, 2M and so on, and its last") {
 TEST_CASE("M = 1 keeps all, and nothing gives nothing") {
   CHECK(down_sample(stripe({100, 3}), 1).size() == 103);
   CHECK(down_sample({}, 15).empty());
+}
+
+TEST_CASE("a notch narrower than M is kept where bends are, and a straight stripe stays thin") {
+  auto centres = stripe({100});
+  for (auto& centre : centres) centre.v = 500 - 0.3f * centre.u;
+  CHECK(down_sample(centres, 15, 1).size() == down_sample(centres, 15).size());
+  for (int i = 50; i <= 56; ++i) centres[i].v -= 4;  // a gap between two plates
+  const auto kept = down_sample(centres, 15, 1);
+  std::set<float> numbers;
+  for (const auto& centre : kept) numbers.insert(centre.u);
+  CHECK(numbers.size() == kept.size());
+  CHECK(std::is_sorted(kept.begin(), kept.end(),
+                       [](const auto& a, const auto& b) { return a.u < b.u; }));
+  CHECK(numbers.size() <= down_sample(centres, 15).size() + 4);
+  // No centre lies farther than a pixel from the line through those that are kept.
+  for (std::size_t i = 1; i < kept.size(); ++i)
+    for (const auto& centre : centres) {
+      if (centre.u <= kept[i - 1].u || centre.u >= kept[i].u) continue;
+      const double share = (centre.u - kept[i - 1].u) / (kept[i].u - kept[i - 1].u);
+      CHECK(std::abs(centre.v - kept[i - 1].v - share * (kept[i].v - kept[i - 1].v)) < 1.1);
+    }
 }
