@@ -12,7 +12,10 @@ constexpr double kSameEdge = 2.5;  // standard deviations of their difference
 constexpr double kMargin = 0.5;    // of an edge about the stripes that enclose it; mm
 constexpr double kFloor = 0.02;    // of the seam across, whatever the number of its places; mm
 constexpr double kBridge = 20;     // mm
-constexpr double kShortest = 1.5;  // of what shows a plate, over the distance that does
+// Flat on the table a plate's edge is crossed by few stripes, at a small slant.
+constexpr double kEdgeFactor = 2.25;  // of the variance of an edge that many would cross
+constexpr double kEdgeFloor = 0.08;   // mm
+constexpr double kShortest = 1.5;     // of what shows a plate, over the distance that does
 constexpr int kSteps = 200;
 
 // Between which stripes a plate ends, counted outward; mm.
@@ -121,6 +124,7 @@ SeamEnd find_flat_end(const ScanCloud& cloud, const Joint& joint,
                   {std::min(from, to), std::max(from, to), search.tolerance, search.shortening_px});
     if (edge) {
       edge->along = joint.line.along(border.at(edge->along));
+      edge->variance = kEdgeFactor * edge->variance + kEdgeFloor * kEdgeFloor;
       const double half = std::sqrt(3 * edge->variance);  // of as wide an even distribution
       plate_end = {outward * edge->along - half, outward * edge->along + half, true};
       edges.push_back(*edge);

@@ -23,6 +23,7 @@ constexpr double kBeside = 60;          // a plate's plane is fitted to what lie
 constexpr double kNearNoise = 4;        // of a point on a plate, over the noise
 constexpr double kLeastNear = 0.15;     // mm
 constexpr double kEndDeviation = 0.25;  // of a stripe's end at a gap, standard; mm
+constexpr double kLeastReach = 15;      // of a plate away from the seam; mm
 constexpr double kStepMargin = 1.2;     // steps
 constexpr double kLeastSlack = 1;       // a stripe's end is lost before an edge; mm
 constexpr double kHiddenFoot = 0.5;     // of a lap's score: whoever scans one looks at its foot
@@ -214,7 +215,7 @@ void judge(const ScanCloud& cloud, const Candidate& candidate, const FlatSearch&
     joint.flaw = "its plates are not parallel";
   else if (share < kThrough)
     joint.flaw = fmt::format("it shows in {:.0f} % of the stripes only", 100 * share);
-  else if (reach < kFullReach / 2)
+  else if (reach < kLeastReach)
     joint.flaw = "one of its plates is too narrow";
   else if (joint.course.stripes < search.stripes_min)
     joint.flaw = fmt::format("only {} stripes cross both plates", joint.course.stripes);
@@ -335,7 +336,10 @@ std::array<Stations, 2> stations_by_border(const ScanCloud& cloud, const Joint& 
   std::array<Stations, 2> stations;
   for (int j = 0; j < 2; ++j) {
     const Line& border = joint.flat->borders[j];
-    stations[j] = stations_along(cloud, joint.plates, border, search);
+    // Of a lap the other plate lies at another height, where stripes cross elsewhere.
+    std::array<JointPlate, 2> plates = joint.plates;
+    plates[1 - j].points.clear();
+    stations[j] = stations_along(cloud, plates, border, search);
     for (Station& station : stations[j].list)
       station.along = joint.line.along(border.at(station.along));
     if (cloud.organised())

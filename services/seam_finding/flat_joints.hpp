@@ -11,7 +11,7 @@ namespace arcstart {
 struct FlatSearch {
   bool lap = false, butt = false, v = false;          // wanted
   double parallel = 0.07;                             // between the plates' normals, at most; rad
-  double step_min = 1.5, step_max = 20;               // of a lap: the upper plate's thickness; mm
+  double step_min = 1.5, step_max = 12;               // of a lap: the upper plate's thickness; mm
   double gap_max = 4;                                 // of a butt joint; mm
   double half_angle_min = 0.2, half_angle_max = 0.8;  // of a V's slant from the normal; rad
   double width_max = 30;                              // of a V at its top; mm

@@ -12,9 +12,8 @@ namespace {
 constexpr double kDegree = M_PI / 180;
 constexpr double kBeside = 25;     // a joint is judged by what lies so near the line; mm
 constexpr double kFullReach = 10;  // a plate that reaches so far from the seam counts in full; mm
-// Outside a corner a plate reaches so far, else it is the cut of the other; mm, as three quarters
-// of its points beside the seam are nearer.
-constexpr double kLeastOutsideReach = 17;
+// Outside a corner a plate reaches so far, else it is the cut of the other; mm.
+constexpr double kLeastOutside = 22;
 constexpr double kLeastConcave = 0.8;
 constexpr double kLeastExplained = 0.5;
 constexpr double kNoComponent = 0.05;  // of a unit direction that only noise gives a sign
@@ -62,14 +61,24 @@ std::vector<int> with_pieces_of_the_plane(const ScanCloud& cloud, const std::vec
 struct Beside {
   double before = 0;  // of what touches the line; 0..1
   double reach = 0;   // three quarters of the points are nearer; mm
+  double whole = 0;   // nine tenths of all the plate's points there are nearer; mm
 };
+double quantile(std::vector<double>& values, std::size_t part, std::size_t of) {
+  if (values.empty()) return 0;
+  const auto place = values.begin() + static_cast<std::ptrdiff_t>(part * values.size() / of);
+  std::nth_element(values.begin(), place, values.end());
+  return *place;
+}
+
 Beside look_beside(const ScanCloud& cloud, const Joint& joint, int plate, double tolerance) {
   int before = 0, behind = 0;
-  std::vector<double> distances;
+  std::vector<double> distances, all;
   for (const int i : joint.plates[plate].points) {
     const Eigen::Vector3d& point = cloud.points[i];
     const double t = joint.line.along(point), r = joint.line.distance(point);
-    if (r > kBeside || t < joint.course.begin || t > joint.course.end) continue;
+    if (t < joint.course.begin || t > joint.course.end) continue;
+    all.push_back(r);
+    if (r > kBeside) continue;
     distances.push_back(r);
     // What lies farther behind may be the plate going on beyond the other's thickness.
     if (r > joint.plates[plate].contact) continue;
@@ -80,11 +89,8 @@ Beside look_beside(const ScanCloud& cloud, const Joint& joint, int plate, double
   }
   Beside beside;
   if (before > 0) beside.before = static_cast<double>(before) / (before + behind);
-  if (!distances.empty()) {
-    const auto quartile = distances.begin() + static_cast<std::ptrdiff_t>(3 * distances.size() / 4);
-    std::nth_element(distances.begin(), quartile, distances.end());
-    beside.reach = *quartile;
-  }
+  beside.reach = quantile(distances, 3, 4);
+  beside.whole = quantile(all, 9, 10);
   return beside;
 }
 
@@ -126,7 +132,7 @@ void judge(const ScanCloud& cloud, const std::vector<int>& left, Joint& joint,
     joint.flaw = fmt::format("its angle is {:.1f} deg", angle / kDegree);
   else if (joint.concavity < kLeastConcave)
     joint.flaw = outside ? "its edge is not convex" : "its edge is not concave";
-  else if (outside && std::min(first.reach, second.reach) < kLeastOutsideReach)
+  else if (outside && std::min(first.whole, second.whole) < kLeastOutside)
     joint.flaw = "it is the edge of one plate";
   else if (joint.explained < kLeastExplained)
     joint.flaw = "too much else lies around it";

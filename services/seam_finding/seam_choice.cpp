@@ -17,6 +17,7 @@ namespace {
 
 constexpr double kDegree = M_PI / 180;
 constexpr double kShortestSeam = 10;  // mm: less of it seen on both plates is no seam
+constexpr double kShortestFlat = 20;  // of plates that only lie side by side
 constexpr int kAlternatives = 6;
 constexpr double kAround = 3;      // of a joint between parallel plates; mm
 constexpr int kMissingInARow = 3;  // stripes before the start
@@ -57,7 +58,7 @@ FlatSearch flat_search(const SeamFindingSettings& settings) {
   search.half_angle_max = (settings.v_angle_deg + settings.v_angle_tolerance_deg) / 2 * kDegree;
   search.width_max = settings.v_width_max_mm;
   search.stripes_min = settings.stripes_min;
-  search.length_min = kShortestSeam;
+  search.length_min = kShortestFlat;
   return search;
 }
 

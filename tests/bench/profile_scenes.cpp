@@ -15,7 +15,7 @@ using synthetic::SceneChoice;
 std::optional<truth_t> truth_of(const synthetic::Scene& scene) {
   if (scene.start == scene.end) return std::nullopt;
   truth_t truth{};
-  truth.joint_type = "tee";
+  truth.joint_type = scene.joint_type;
   const Eigen::Vector3d direction = (scene.end - scene.start).normalized();
   std::copy(scene.start.begin(), scene.start.end(), truth.start);
   std::copy(scene.end.begin(), scene.end.end(), truth.end);
@@ -23,13 +23,15 @@ std::optional<truth_t> truth_of(const synthetic::Scene& scene) {
   return truth;
 }
 
-seam_t answer(const synthetic::Scene& scene, const ScanChoice& choice, int seed) {
+seam_t answer(const synthetic::Scene& scene, const ScanChoice& choice,
+              const std::string& joint_type, int seed) {
   synthetic::Scene cell = scene;
   cell.boxes.clear();
   const auto number = static_cast<std::uint64_t>(seed);
   const ScanCloud empty = make_scan(cell, choice, 1000 + number).cloud;
   const ScanCloud work = make_scan(scene, choice, number).cloud;
-  const SeamFindingSettings settings;
+  SeamFindingSettings settings;
+  settings.joint_type = joint_type;
   const SurfaceBackground background(empty, settings.background_distance_mm);
   seam_t seam = empty_seam();
   fill_in(seam, find_seam(work, background, settings, number));
@@ -45,7 +47,8 @@ void bench_profiles(int seeds, nlohmann::json& json) {
     const char* name;
     SceneChoice scene;
     ScanChoice scan;
-    bool long_scan = false;  // takes so long that a tenth of the seeds must do
+    bool long_scan = false;          // takes so long that a tenth of the seeds must do
+    const char* joint_type = "tee";  // asked for
   };
   const SceneChoice tool{.tool = true};
   const Row rows[] = {
@@ -61,6 +64,10 @@ void bench_profiles(int seeds, nlohmann::json& json) {
       {"m20", tool, {.thin = 20}},
       {"v10", tool, {.pitch = 0.72}, true},
       {"v100", tool, {.pitch = 7.2}},
+      {"lap", {.joint = "lap"}, {}, false, "any"},
+      {"corner", {.joint = "outside_corner"}, {}, false, "outside_corner"},
+      {"butt", {.joint = "butt"}, {}, false, "any"},
+      {"v", {.joint = "v"}, {}, false, "any"},
       {"empty", {.workpiece = false}, {}},
       {"lone_plate", {.lone_plate = true}, {}},
       {"two_boxes", {.workpiece = false, .tool = true, .big_box = true}, {}},
@@ -73,7 +80,7 @@ void bench_profiles(int seeds, nlohmann::json& json) {
       for (int seed = 1; seed <= (row.long_scan ? (seeds + 9) / 10 : seeds); ++seed) {
         const synthetic::Scene scene =
             synthetic::make_scene(row.scene, static_cast<std::uint64_t>(seed));
-        figures.add(seed, answer(scene, choice, seed), truth_of(scene), 1);
+        figures.add(seed, answer(scene, choice, row.joint_type, seed), truth_of(scene), 1);
       }
       figures.finish(json);
     }

@@ -37,6 +37,12 @@ double meet(const Box& box, const Eigen::Vector3d& origin, const Eigen::Vector3d
     enter = std::max(enter, a);
     leave = std::min(leave, b);
   }
+  for (const Plane& cut : box.cuts) {
+    const double height = cut.signed_distance(o), rise = cut.normal.dot(d);
+    if (rise == 0 && height > 0) return kInfinity;
+    if (rise < 0) enter = std::max(enter, -height / rise);
+    if (rise > 0) leave = std::min(leave, -height / rise);
+  }
   return enter <= leave && enter > 1e-6 ? enter : kInfinity;
 }
 
@@ -78,6 +84,52 @@ Box standing_box(const Eigen::Isometry3d& frame, const Eigen::Vector3d& corner,
   return box;
 }
 
+// Takes away what lies before a plane through a point, both in the frame of standing_box().
+void cut(Box& box, const Eigen::Isometry3d& frame, const Eigen::Vector3d& point,
+         const Eigen::Vector3d& normal) {
+  const Eigen::Vector3d at = box.T_base_box.inverse() * (frame * point);
+  box.cuts.push_back({normal.normalized(), -normal.normalized().dot(at)});
+}
+
+// The work's frame: x along the seam, which runs in the first plate's top; the open side is +y.
+struct Sizes {
+  double length, width, height, base, thickness;
+};
+void add_other_joint(Scene& scene, const std::string& joint, const Eigen::Isometry3d& work,
+                     const Sizes& s) {
+  using Vector = Eigen::Vector3d;
+  const auto at = [&](double x, double y, double z) { return Vector(x, y, z); };
+  Eigen::Isometry3d top = work * Eigen::Translation3d(0, 0, s.base);  // of the first plate
+  Vector second = Vector::UnitZ();
+  if (joint == "lap") {
+    scene.boxes.push_back(standing_box(work, at(-5, -s.width / 2, 0), {s.length, s.width, s.base}));
+    scene.boxes.push_back(
+        standing_box(top, at(0, -s.height, 0), {s.length, s.height, s.thickness}));
+  } else if (joint == "outside_corner") {
+    top = top * Eigen::Translation3d(0, 0, s.height);
+    Box flat = standing_box(top, at(-5, -s.width / 2, -s.base), {s.length, s.width / 2, s.base});
+    cut(flat, top, at(0, 0, 0), at(0, 1, -1));
+    Box wall = standing_box(top, at(0, -s.thickness, -s.height), {s.length, s.thickness, s.height});
+    cut(wall, top, at(0, 0, 0), at(0, -1, 1));
+    scene.boxes.push_back(flat);
+    scene.boxes.push_back(wall);
+    second = Vector::UnitY();
+  } else {
+    const double slant = joint == "v" ? 30 * kDegree : 0, root = joint == "v" ? 1 : 0.5;
+    Box near = standing_box(top, at(-5, root, -s.base), {s.length, s.width / 2, s.base});
+    Box far = standing_box(top, at(0, -root - s.height, -s.base), {s.length, s.height, s.base});
+    cut(near, top, at(0, root, -s.base), at(0, -std::cos(slant), std::sin(slant)));
+    cut(far, top, at(0, -root, -s.base), at(0, std::cos(slant), std::sin(slant)));
+    scene.boxes.push_back(near);
+    scene.boxes.push_back(far);
+  }
+  scene.joint_type = joint;
+  scene.start = top * at(0, 0, 0);
+  scene.end = top * at(s.length - 5, 0, 0);
+  scene.normals[0] = work.linear() * Vector::UnitZ();
+  scene.normals[1] = work.linear() * second;
+}
+
 Eigen::Isometry3d placed(double x, double y, double yaw) {
   return Eigen::Translation3d(x, y, 0) *
          Eigen::Isometry3d(Eigen::AngleAxisd(yaw, Eigen::Vector3d::UnitZ()));
@@ -96,7 +148,9 @@ Scene make_scene(const SceneChoice& choice, std::uint64_t seed) {
   work = work * Eigen::AngleAxisd(random.between(-3, 3) * kDegree, Eigen::Vector3d::UnitX()) *
          Eigen::AngleAxisd(random.between(-3, 3) * kDegree, Eigen::Vector3d::UnitY());
   work.translation().z() += 2;  // what is tilted would dip into the table
-  if (choice.workpiece) {
+  if (choice.workpiece && choice.joint != "tee") {
+    add_other_joint(scene, choice.joint, work, {length, width, height, base, thickness});
+  } else if (choice.workpiece) {
     const double before = choice.base_overhang;
     scene.boxes.push_back(
         standing_box(work, {-before, -width / 2, 0}, {length + 2 * before, width, base}));

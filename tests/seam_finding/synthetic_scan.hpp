@@ -9,27 +9,33 @@
 #include <string>
 #include <vector>
 
+#include "common/geometry.hpp"
 #include "services/seam_finding/scan_cloud.hpp"
 
 namespace arcstart::synthetic {
 
-// A box with its own frame; its faces are at +-half_size.
+// A box with its own frame; its faces are at +-half_size. What lies before a cut is missing.
 struct Box {
   Eigen::Isometry3d T_base_box = Eigen::Isometry3d::Identity();
   Eigen::Vector3d half_size = Eigen::Vector3d::Ones();
+  std::vector<Plane> cuts;  // in its frame
 };
 
 struct Scene {
   std::vector<Box> boxes;
   double table_waves = 0.4;  // the table's height goes up and down by so much; mm
   bool table = true;
-  // Truth where there is a Tee.
+  // Truth where there is a joint.
+  std::string joint_type = "tee";
   Eigen::Vector3d start{0, 0, 0}, end{0, 0, 0};
   Eigen::Vector3d normals[2] = {{0, 0, 1},
                                 {0, 1, 0}};  // of base plate and upright, out of the metal
 };
 
 struct SceneChoice {
+  // tee; outside_corner, mitred; lap; butt, with a gap of 1 mm; v, of 60 deg with a root gap of 2
+  // mm.
+  std::string joint = "tee";
   bool workpiece = true;
   bool tool = false;     // left lying on the table beside the workpiece
   bool big_box = false;  // larger than the workpiece, beside it
