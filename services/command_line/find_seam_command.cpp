@@ -24,7 +24,7 @@ constexpr double kViewHeight = 1000;  // of a viewpoint that is not given, above
 constexpr std::uint64_t kSeed = 1;
 
 struct Options {
-  std::string cloud, background, picture, stations, cell, units = "mm";
+  std::string cloud, background, picture, stations, cell, joint, units = "mm";
   std::vector<double> viewpoint, search_direction;
   bool remove_plane = false, json = false;
 
@@ -123,12 +123,12 @@ void draw(const ScanCloud& cloud, const SeamResult& result, const std::optional<
 // What was measured along the seam, a line a place. Throws PointCloudFileError where it cannot be
 // written.
 void write_stations(const SeamResult& result, const std::string& path) {
-  std::string text = "distance,x,y,z,residual,tack\n";  // mm
+  std::string text = "distance,x,y,z,residual,tack,gap\n";  // mm
   for (const SurveyPlace& place : result.stations)
-    text += fmt::format("{:.3f},{:.4f},{:.4f},{:.4f},{},{}\n", place.along, place.position.x(),
+    text += fmt::format("{:.3f},{:.4f},{:.4f},{:.4f},{},{},{}\n", place.along, place.position.x(),
                         place.position.y(), place.position.z(),
                         place.residual < 0 ? "" : fmt::format("{:.4f}", place.residual),
-                        place.tack ? 1 : 0);
+                        place.tack ? 1 : 0, place.gap < 0 ? "" : fmt::format("{:.3f}", place.gap));
   std::ofstream file(path, std::ios::binary);
   file << text;
   file.close();
@@ -156,10 +156,11 @@ void tell(const SeamResult& result) {
 }
 
 int run(const Options& options) try {
-  const auto settings =
+  auto settings =
       options.cell.empty()
           ? SeamFindingSettings{}
           : Configuration::from_file(options.cell).read<SeamFindingSettings>("seam_finding");
+  if (!options.joint.empty()) settings.joint_type = options.joint;
   const PointCloud file = read_in_mm(options.cloud, options);
   ScanCloud cloud = unorganised_cloud(file.points);
   check_extent(cloud, options);
@@ -236,13 +237,22 @@ void add_find_seam_command(CLI::App& parent, int& exit_code) {
       ->delimiter(',')
       ->expected(3)
       ->check(finite_vector());
+  command
+      ->add_option(
+          "--joint", options->joint,
+          "Joint wanted, else the cell's seam_finding.joint_type, which is tee where it is "
+          "not said. any: tee, lap, butt or v; an outside_corner looks like the edge of a "
+          "box and must be asked for; lap, butt and v need --search-direction")
+      ->check(CLI::IsMember({"any", "tee", "corner", "outside_corner", "lap", "butt", "v"}));
   command->add_flag("--json", options->json,
                     "Print the answer on standard output, keys as in seam_t (mm and rad)");
   command->add_option("--picture", options->picture,
                       "PNG of the cloud with background, plates, seam and start, from two sides");
-  command->add_option("--csv", options->stations,
-                      "CSV of the places along the seam: distance from the start, position, "
-                      "residual from the line (mm, empty where not measured), tack weld (0 or 1)");
+  command->add_option(
+      "--csv", options->stations,
+      "CSV of the places along the seam: distance from the start, position, "
+      "residual from the line (mm, empty where not measured), tack weld (0 or 1), gap "
+      "(mm, likewise)");
   command->add_option("--cell", options->cell,
                       "The cell's file, cell.yaml, whose section seam_finding is to be used");
   command->footer(

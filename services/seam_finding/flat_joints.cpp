@@ -23,6 +23,7 @@ constexpr double kBeside = 60;          // a plate's plane is fitted to what lie
 constexpr double kNearNoise = 4;        // of a point on a plate, over the noise
 constexpr double kLeastNear = 0.15;     // mm
 constexpr double kEndDeviation = 0.25;  // of a stripe's end at a gap, standard; mm
+constexpr double kUnsteady = 0.4;       // deviation of a seam across; mm
 constexpr double kLeastReach = 15;      // of a plate away from the seam; mm
 constexpr double kStepMargin = 1.2;     // steps
 constexpr double kLeastSlack = 1;       // a stripe's end is lost before an edge; mm
@@ -215,6 +216,8 @@ void judge(const ScanCloud& cloud, const Candidate& candidate, const FlatSearch&
     joint.flaw = "its plates are not parallel";
   else if (share < kThrough)
     joint.flaw = fmt::format("it shows in {:.0f} % of the stripes only", 100 * share);
+  else if (joint.flat->seam.variance > kUnsteady * kUnsteady)
+    joint.flaw = "its edges are not straight";
   else if (reach < kLeastReach)
     joint.flaw = "one of its plates is too narrow";
   else if (joint.course.stripes < search.stripes_min)

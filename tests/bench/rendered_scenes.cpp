@@ -1,5 +1,7 @@
 #include <fmt/format.h>
 
+#include <map>
+
 #include "services/extraction/extraction_app.hpp"
 #include "services/reconstruction/reconstruction_app.hpp"
 #include "services/seam_finding/seam_finding_app.hpp"
@@ -15,12 +17,22 @@ struct Outcome {
   truth_t truth;
 };
 
-Outcome run_seed(const SimulatedScanSettings& settings, std::uint64_t seed) {
+// How the pipeline is set for a row.
+struct Asked {
+  std::string joint_type = "tee";
+  double keep_bend_px = 0;
+};
+
+Outcome run_seed(const SimulatedScanSettings& settings, const Asked& asked, std::uint64_t seed) {
   const auto bus = Bus::in_memory();
   const Instance instance;  // no state folder: nothing outlives the run
   ExtractionApp extraction(*bus, ExtractionSettings{}, instance);
-  ReconstructionApp reconstruction(*bus, ReconstructionSettings{}, instance);
-  SeamFindingApp seam_finding(*bus, SeamFindingSettings{}, instance);
+  ReconstructionSettings reconstruction_settings;
+  reconstruction_settings.keep_bend_px = asked.keep_bend_px;
+  ReconstructionApp reconstruction(*bus, reconstruction_settings, instance);
+  SeamFindingSettings seam_settings;
+  seam_settings.joint_type = asked.joint_type;
+  SeamFindingApp seam_finding(*bus, seam_settings, instance);
   Outcome outcome{};
   outcome.seam.verdict = seam_t::REFUSED;
   outcome.seam.reason = "no answer came";
@@ -65,11 +77,22 @@ void bench_rendered(int seeds, nlohmann::json& json) {
   row("tee105").scene.joint_angle_deg = 105;
   row("lean20").sensor.lean_deg = 20;
   row("box_on_base").scene.box_on_base = true;
+  row("corner").scene.joint = "outside_corner";
+  row("lap").scene.joint = "lap";
+  SimulatedScanSettings& butt = row("butt");
+  butt.scene.joint = "butt", butt.scene.root_gap_mm = 1;
+  SimulatedScanSettings& v = row("v");
+  v.scene.joint = "v", v.scene.root_gap_mm = 2;
+  // A gap of 1 mm is narrower than the M-th centre: the bends of the stripe are kept for it. An
+  // outside corner has to be asked for.
+  const std::map<std::string, Asked> asked{
+      {"corner", {"outside_corner"}}, {"lap", {"any"}}, {"butt", {"any", 1}}, {"v", {"any"}}};
   for (const auto& [name, settings] : rows) {
     SeamRow figures(name + ".img");
     const int count = name == "tool" ? 2 * seeds : seeds;
     for (int seed = 1; seed <= count; ++seed) {
-      const Outcome outcome = run_seed(settings, static_cast<std::uint64_t>(seed));
+      const Outcome outcome = run_seed(settings, asked.contains(name) ? asked.at(name) : Asked{},
+                                       static_cast<std::uint64_t>(seed));
       figures.add(seed, outcome.seam, outcome.truth, 0.15);
     }
     figures.finish(json);
