@@ -11,6 +11,8 @@
 #include "services/calibration/length_scale.hpp"
 #include "services/calibration/outlying_views.hpp"
 #include "services/calibration/plate_turns.hpp"
+#include "services/calibration/quaternion_order.hpp"
+#include "services/calibration/robot_weight.hpp"
 
 namespace arcstart {
 namespace {
@@ -160,6 +162,13 @@ std::string adjust_all(const Plate& plate, CalibrationRun& run) {
   }
 }
 
+// What follows from the adjustment.
+void describe(const Plate& plate, CalibrationRun& run) {
+  run.hand_eye_residual_mm = hand_eye_residual(plate, run);
+  run.flatness = plate_flatness(plate, run.views, run.adjustment.state);
+  run.field = predicted_field(run.adjustment.state, run.adjustment.covariance, run.views);
+}
+
 void judge(const Plate& plate, const CalibrateOptions& options, CalibrationRun& run) {
   warn_of_method_spread(run);
   if (const std::string slip = length_slip(run.scale, plate); !slip.empty())
@@ -172,14 +181,12 @@ void judge(const Plate& plate, const CalibrateOptions& options, CalibrationRun& 
         "camera and hand-eye apart",
         run.spread.views, run.spread.rotation_deg));
   run.advice = spread_advice(run.spread);
-  run.hand_eye_residual_mm = hand_eye_residual(plate, run);
-  run.flatness = plate_flatness(plate, run.views, run.adjustment.state);
+  describe(plate, run);
   if (run.flatness.bend_mm > std::max(0.05, 6 * run.flatness.deviation_mm))
     run.warnings.push_back(
         fmt::format("the plate is not flat: its points lie within {:.2f} mm; use "
                     "a plate of glass or thick aluminium",
                     run.flatness.bend_mm));
-  run.field = predicted_field(run.adjustment.state, run.adjustment.covariance, run.views);
   if (!options.leave_one_out) return;
   const auto say = [&](std::size_t view) {
     options.progress(fmt::format("without pose {} of {}", view + 1, run.views.size()));
@@ -195,6 +202,21 @@ void judge(const Plate& plate, const CalibrateOptions& options, CalibrationRun& 
   const auto figure = [&](const LeaveOneOut& of) {
     return run.has_laser ? of.laser_rms_mm : of.target_rms_mm;
   };
+  if (figure(run.plain_left_one_out) < figure(run.left_one_out)) {
+    options.progress("how far to believe the robot");
+    const ValidatedAdjustment held = held_by_validation(
+        plate, run.views, {run.adjustment, run.left_one_out, 1}, !run.camera_held, figure);
+    if (held.share < 1)
+      run.warnings.push_back(fmt::format(
+          "the robot's errors are not by chance from pose to pose (a plate of another size, a "
+          "mount "
+          "that gives, wrong stamps): the robot is held by {:.2f} of what they look like, which "
+          "tells unseen poses best",
+          held.share));
+    run.adjustment = held.adjustment;
+    run.left_one_out = held.left_one_out;
+    describe(plate, run);
+  }
   if (figure(run.plain_left_one_out) < 0.95 * figure(run.left_one_out))
     run.warnings.push_back(fmt::format(
         "Park and plain fits tell poses that they never saw better than the adjustment, {:.3f} "
@@ -224,6 +246,8 @@ CalibrationRun calibrate(const Plate& plate, const std::vector<View>& views, int
   leave_out_wrong_turns(run);
   run.spread = pose_spread(run.camera.T_camera_plate);
   run.refused = spread_refusal(run.spread);
+  if (run.refused.empty())
+    run.refused = quaternion_slip(tool_poses(run.views), run.camera.T_camera_plate, plate.points());
   if (run.refused.empty()) run.refused = find_laser_plane(plate, run);
   if (!run.refused.empty()) return run;
   options.progress("adjustment");

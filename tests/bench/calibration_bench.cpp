@@ -11,6 +11,7 @@
 
 #include "services/calibration/calibrate.hpp"
 #include "tests/bench/calibration_in_use.hpp"
+#include "tests/bench/calibration_live.hpp"
 #include "tests/bench/calibration_mistakes.hpp"
 #include "tests/bench/simulated_plate.hpp"
 
@@ -144,6 +145,12 @@ void report(const std::string& row, const Sums& sums, nlohmann::json& json) {
   json[row + ".sd_ratio"] = ratio(sums.predicted_shift, sums.shift);
 }
 
+bool write(const nlohmann::json& json, const std::string& path) {
+  if (path.empty() || std::ofstream(path) << json.dump(2) << '\n') return true;
+  fmt::print(stderr, "bench_calibration: {} cannot be written\n", path);
+  return false;
+}
+
 }  // namespace
 
 int main(int argc, char** argv) {
@@ -159,6 +166,10 @@ int main(int argc, char** argv) {
   options
       .add_option("--experiments", experiments, "Seeds 1 to N of the experiment with the result")
       ->capture_default_str();
+  bool live = false;
+  options.add_flag("--live", live,
+                   "Instead, calibrate three seeds through the real processes, in a network of its "
+                   "own");
   options.add_option(
       "--folder", folder,
       "Instead, write the first seed's images and poses with a robot error of 0.1 mm, "
@@ -180,6 +191,7 @@ int main(int argc, char** argv) {
     return 0;
   }
   nlohmann::json json;
+  if (live) return bench_live(3, json) && write(json, json_path) ? 0 : 1;
   fmt::print(
       "rendered images, {} x {}: noise, speckle, print under the stripe; detection and "
       "extraction as shipped\n",
@@ -221,9 +233,5 @@ int main(int argc, char** argv) {
   if (seeds > 0) report(mistakes, json);
   if (trials > 0) bench_time_offset(trials, json);
   if (experiments > 0) bench_experiment(experiments, json);
-  if (!json_path.empty() && !(std::ofstream(json_path) << json.dump(2) << '\n')) {
-    fmt::print(stderr, "bench_calibration: {} cannot be written\n", json_path);
-    return 1;
-  }
-  return 0;
+  return write(json, json_path) ? 0 : 1;
 }

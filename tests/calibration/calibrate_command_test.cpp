@@ -146,3 +146,23 @@ TEST_CASE("too few poses are refused, with what is missing") {
   CHECK_THAT(outcome.err, Contains("refused: 4 usable poses, at least 5"));
   CHECK(!fs::exists(folder.root / "set/calibration.yaml"));
 }
+
+TEST_CASE("quaternions in another order are recognised and said") {
+  const SetFolder folder;
+  std::ifstream poses(folder.root / "set/poses.csv");
+  std::string line, kept;
+  std::getline(poses, kept);
+  while (std::getline(poses, line)) {
+    std::istringstream fields(line);
+    std::vector<std::string> f;
+    for (std::string field; std::getline(fields, field, ',');) f.push_back(field);
+    REQUIRE(f.size() == 8);
+    kept += "\n" + f[0] + "," + f[1] + "," + f[2] + "," + f[3] + "," + f[5] + "," + f[6] + "," +
+            f[7] + "," + f[4];
+  }
+  poses.close();
+  std::ofstream(folder.root / "set/poses.csv") << kept << "\n";
+  const auto outcome = folder.run("set");
+  CHECK(outcome.code == 1);
+  CHECK_THAT(outcome.err, Contains("refused") && Contains("qw,qx,qy,qz, the scalar first"));
+}

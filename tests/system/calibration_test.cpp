@@ -14,18 +14,6 @@ namespace fs = std::filesystem;
 
 namespace {
 
-// RMS over the range, pixel to tool, against where the true sensor sees them.
-double end_to_end(const Calibration& found, const TrueSensor& truth) {
-  double sum = 0;
-  const auto probes = test::probe_points(truth);
-  for (const test::ProbePoint& probe : probes) {
-    const auto point = camera_point(found.sensor_model, probe.pixel.x(), probe.pixel.y());
-    REQUIRE(point);
-    sum += (found.T_tool_camera * *point - probe.tool).squaredNorm();
-  }
-  return std::sqrt(sum / static_cast<double>(probes.size()));
-}
-
 void calibrate_and_scan(int seed) {
   const std::string plate = std::string(ARCSTART_SOURCE) + "/scripts/simulated_plate.yaml";
   const std::string name = "calibration_" + std::to_string(seed);
@@ -46,7 +34,8 @@ void calibrate_and_scan(int seed) {
   const Calibration found = read_calibration_file(file);
   CHECK(found.id != before.id);
   CHECK(found.time_offset == before.time_offset);
-  const double error = end_to_end(found, make_true_sensor(SensorSettings{}));
+  const double error = test::end_to_end(found.sensor_model, found.T_tool_camera,
+                                        test::probe_points(make_true_sensor(SensorSettings{})));
   WARN("seed " << seed << ": end to end " << error << " mm RMS; " << output.out);
   CHECK(error < 0.2);  // twice what is claimed of the mean over seeds
   CHECK(fs::file_size(set + "/calibration.html") > 10000);
