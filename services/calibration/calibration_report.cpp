@@ -110,7 +110,11 @@ std::string charts(const Plate& plate, const CalibrationRun& run, const Calibrat
     low = low.cwiseMin(error.pixel);
     high = high.cwiseMax(error.pixel);
   }
-  text += spot_chart("Predicted deviation of a laser point over the image", low, high, spots, "mm");
+  text += spot_chart(
+      fmt::format("Predicted deviation of a laser point, columns {:.0f} to {:.0f}, rows {:.0f} "
+                  "to {:.0f}",
+                  low.x(), high.x(), low.y(), high.y()),
+      low, high, spots, "mm");
   spots.clear();
   low = {1e9, 1e9};
   high = {-1e9, -1e9};

@@ -98,13 +98,17 @@ std::string spot_chart(const std::string& title, const Eigen::Vector2d& low,
                        const std::string& unit) {
   if (spots.empty()) return "";
   const Eigen::Vector2d extent = (high - low).cwiseMax(1e-9);
-  const double scale = (kWidth - 80) / extent.x(), drawn = extent.y() * scale + 60;
+  // What is far taller than wide is drawn shorter, or a narrow field would fill pages.
+  constexpr double kTallest = 420;
+  const double across = (kWidth - 80) / extent.x();
+  const Eigen::Vector2d scale(across, std::min(across, kTallest / extent.y()));
+  const double drawn = extent.y() * scale.y() + 60;
   const auto [least, most] = std::minmax_element(
       spots.begin(), spots.end(), [](const Spot& a, const Spot& b) { return a.value < b.value; });
   std::string inside;
   for (const Spot& spot : spots) {
     const double share = (spot.value - least->value) / std::max(1e-12, most->value - least->value);
-    const Eigen::Vector2d at = scale * (spot.at - low) + Eigen::Vector2d(40, 30);
+    const Eigen::Vector2d at = scale.cwiseProduct(spot.at - low) + Eigen::Vector2d(40, 30);
     inside += fmt::format(
         "<circle cx=\"{:.1f}\" cy=\"{:.1f}\" r=\"17\" fill=\"rgb({:.0f},{:.0f},{:.0f})\"/><text "
         "x=\"{:.1f}\" y=\"{:.1f}\">{:.3f}</text>",

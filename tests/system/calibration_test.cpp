@@ -5,6 +5,8 @@
 #include <filesystem>
 
 #include "services/calibration/calibration_file.hpp"
+#include "services/calibration/time_offset.hpp"
+#include "services/cell_simulator/cell_simulator_settings.hpp"
 #include "services/command_line/seam_error.hpp"
 #include "tests/bench/simulated_plate.hpp"
 #include "tests/system/running_cell.hpp"
@@ -70,3 +72,60 @@ TEST_CASE("the cell calibrates itself and finds the seam with the result") {
 }
 
 TEST_CASE("the same with other seeds", "[.][seeds]") { calibrate_and_scan(GENERATE(2, 3)); }
+
+// What an image's stamp must be moved by to look up its position: from the devices' own clocks,
+// which the simulator starts at one instant and whose rates are known. Median over all; s.
+double true_time_offset(const Heard& heard, const CellSimulatorSettings& settings) {
+  const auto median = [](std::vector<double> values) {
+    const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
+    std::nth_element(values.begin(), middle, values.end());
+    return *middle;
+  };
+  const double begin = static_cast<double>(heard.poses.front().utime);  // keeps the digits
+  std::vector<double> of_poses, of_images;  // stamp less true time since the simulator's start; us
+  for (const robot_pose_t& pose : heard.poses)
+    of_poses.push_back(static_cast<double>(pose.utime) - begin -
+                       (static_cast<double>(pose.device_clock) * pose.device_tick_us -
+                        1e6 * settings.robot_clock_start_s) /
+                           (1 + 1e-6 * settings.robot_clock_drift_ppm));
+  for (const image_t& image : heard.images)
+    of_images.push_back(
+        static_cast<double>(image.utime) - begin - image.exposure_us / 2 -
+        (static_cast<double>(image.device_time_ns) * 1e-3 - 1e6 * settings.camera_clock_start_s) /
+            (1 + 1e-6 * settings.camera_clock_drift_ppm));
+  return 1e-6 * (median(of_poses) - median(of_images));
+}
+
+// Camera's and robot's clocks, their mapping to the host and the network are in it as in a real
+// cell.
+TEST_CASE("the cell's time offset is found from sweeps of the real processes") {
+  RunningCell cell("time_offset", {"cell_simulator.search_rise_mm: 100",
+                                   "cell_simulator.further_sweeps_mm_s: [50, 120, 120]"});
+  cell.start_all();
+  REQUIRE(cell.wait_until_ready());
+  cell.forget();
+  REQUIRE(cell.scan(scan_t::BACKGROUND, 40));
+  SweepRecord record;
+  for (const robot_pose_t& pose : cell.heard().poses)
+    record.trajectory.insert(pose.utime, transform_from_arrays(pose.position, pose.quaternion));
+  for (const stripe_t& message : cell.heard().stripes) {
+    SweptStripe stripe{message.utime, message.scan_id, {}};
+    for (std::size_t i = 0; i < message.u.size(); ++i) {
+      if (message.rank[i] != stripe_t::CHOSEN) continue;
+      if (i == 0 || message.segment[i] != message.segment[i - 1]) stripe.segments.emplace_back();
+      if (stripe.segments.empty()) stripe.segments.emplace_back();
+      stripe.segments.back().push_back({message.u[i], message.v[i]});
+    }
+    if (!stripe.segments.empty()) record.stripes.push_back(stripe);
+  }
+  Calibration calibration = read_calibration_file(cell.folder() + "/LASER0.calibration.yaml");
+  const double truth = true_time_offset(cell.heard(), {});
+  calibration.time_offset = 0;
+  const TimeOffset found = find_time_offset(record, calibration);
+  INFO(found.refused << " " << record.stripes.size() << " stripes");
+  REQUIRE(found.refused.empty());
+  WARN("time offset " << 1e3 * found.offset_s << " ms, deviation " << 1e3 * found.deviation_s
+                      << " ms; by the devices' clocks it is " << 1e3 * truth << " ms");
+  CHECK(found.offset_s == Approx(truth).margin(0.6e-3));
+  CHECK(found.deviation_s < 0.3e-3);
+}
