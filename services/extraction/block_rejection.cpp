@@ -36,9 +36,12 @@ struct Folding {
   std::ptrdiff_t stride;
   int width, rows;
   std::uint16_t *lowest, *highest, *plain_lowest, *plain_highest;  // of each block
+  std::uint16_t* smoothed;  // the first line, smoothed along as well
+  std::ptrdiff_t smoothed_stride;
 };
 
-typedef std::uint32_t Pairs __attribute__((vector_size(32)));  // of columns, the even one low
+typedef std::uint32_t Pairs __attribute__((vector_size(32)));     // of columns, the even one low
+typedef std::uint16_t Smoothed __attribute__((vector_size(16)));  // of every second column
 typedef std::uint8_t Greys __attribute__((vector_size(16)));
 static_assert(sizeof(Pairs) == BlockRejection::kWidth * sizeof(std::uint16_t));
 static_assert(sizeof(Greys) == BlockRejection::kWidth);
@@ -84,7 +87,7 @@ ARCSTART_INLINE_BODY void fold_lanes(Greys low, Greys high, std::uint16_t& lowes
 }
 
 // Smooths the lines along, x 256 in all (exact in 16 bits: 255 * 256 < 65536), in the even columns,
-// and folds what a block holds of them; then the plain grey values.
+// keeps them, and folds what a block holds of them; then the plain grey values.
 template <int>
 ARCSTART_INLINE_BODY void fold_blocks_body(const Folding& folding) {
   for (int column = 0; column < folding.columns; ++column) {
@@ -99,6 +102,9 @@ ARCSTART_INLINE_BODY void fold_blocks_body(const Folding& folding) {
       const Pairs grey = (left & 0xffffu) + (right & 0xffffu) + ((odd + even) << 2) + (even << 1);
       low = grey < low ? grey : low;
       high = grey > high ? grey : high;
+      const Smoothed smoothed = __builtin_convertvector(grey, Smoothed);
+      std::memcpy(folding.smoothed + i * folding.smoothed_stride + column * sizeof(Smoothed) / 2,
+                  &smoothed, sizeof smoothed);
     }
     fold_lanes(low, high, folding.lowest[column], folding.highest[column]);
   }
@@ -152,6 +158,7 @@ void BlockRejection::fold_ranges(const GreyImage& image) {
   }
   const int line_stride = kBefore + columns_ * kWidth + kAfter;
   lines_.resize(static_cast<std::size_t>(kLines) * line_stride);
+  differences_.resize(image.width, image.height, columns_);
   for (int row = 0; row < rows_; ++row) {
     const int begin = row * kHeight, end = std::min(begin + kHeight, image.height);
     int lines = 0;
@@ -159,7 +166,8 @@ void BlockRejection::fold_ranges(const GreyImage& image) {
     const std::size_t at = static_cast<std::size_t>(row) * columns_;
     fold_blocks({lines_.data() + kBefore, line_stride, lines, columns_, image.row(begin),
                  image.stride, image.width, end - begin, &smoothed_.lowest[at],
-                 &smoothed_.highest[at], &plain_.lowest[at], &plain_.highest[at]});
+                 &smoothed_.highest[at], &plain_.lowest[at], &plain_.highest[at],
+                 differences_.row(row * kLines), differences_.stride()});
   }
 }
 
@@ -221,6 +229,7 @@ void BlockRejection::mark(const GreyImage& image, const GaussianKernels& kernels
                           double least_curvature) {
   if (kernels.sigma != bound_sigma_) {
     bound_ = curvature_bound(kernels);
+    bend_ = bend_bound(kernels, kHeight * ((3 * kernels.half_width / 4 + kHeight - 1) / kHeight));
     bound_sigma_ = kernels.sigma;
   }
   fold_ranges(image);
@@ -229,19 +238,62 @@ void BlockRejection::mark(const GreyImage& image, const GaussianKernels& kernels
                  work_);
   };
   widen(smoothed_, bound_.smoothed_reach);
+  if (bend_.holds) {
+    near_ = plain_;
+    widen(near_, bend_.rest_reach);
+  }
   widen(plain_, bound_.reach);
+  // 1/64 grey value for the rounding of float sums.
+  const auto least = static_cast<float>(least_curvature - bound_.per_smoothed_grey / 64);
+  mark_by_range(least);
+  if (bend_.holds) leave_out_by_bend(least);
+}
+
+void BlockRejection::mark_by_range(float least_curvature) {
   active_.resize(smoothed_.lowest.size());
   const auto smoothed_share = static_cast<float>(bound_.per_smoothed_grey / 256),
              plain_share = static_cast<float>(bound_.per_grey);
-  // 1/64 grey value for the rounding of float sums.
-  const auto least = static_cast<float>(least_curvature - bound_.per_smoothed_grey / 64);
   for (std::size_t block = 0; block < active_.size(); ++block) {
     const int smoothed_range = smoothed_.highest[block] - smoothed_.lowest[block];
     const int range = plain_.highest[block] - plain_.lowest[block];
     active_[block] = smoothed_share * static_cast<float>(smoothed_range) +
                          plain_share * static_cast<float>(range) >=
-                     least;
+                     least_curvature;
   }
+}
+
+// Not where most of the image is left: then it is noise, which bends as much as it ranges.
+void BlockRejection::leave_out_by_bend(float least_curvature) {
+  const auto left = std::count(active_.begin(), active_.end(), 1);
+  if (10 * left > 6 * static_cast<std::ptrdiff_t>(active_.size())) return;
+  const int reach_columns = (bend_.reach + kWidth - 1) / kWidth,
+            reach_rows = (bend_.reach + kHeight - 1) / kHeight;
+  const auto around = [&](int column, int row, const auto& visit) {
+    const int end_row = std::min(rows_, row + reach_rows + 1),
+              end_column = std::min(columns_, column + reach_columns + 1);
+    for (int r = std::max(0, row - reach_rows); r < end_row; ++r)
+      for (int c = std::max(0, column - reach_columns); c < end_column; ++c)
+        visit(r * columns_ + c);
+  };
+  const auto each_active = [&](const auto& visit) {
+    for (int row = 0; row < rows_; ++row)
+      for (int column = 0; column < columns_; ++column)
+        if (active(column, row)) visit(column, row);
+  };
+  differences_.forget();
+  each_active([&](int column, int row) {
+    around(column, row, [&](int block) { differences_.want(block); });
+  });
+  differences_.find_highest();
+  const auto share = static_cast<float>(bend_.per_grey), far = static_cast<float>(bend_.far);
+  each_active([&](int column, int row) {
+    float highest = 0;
+    around(column, row,
+           [&](int block) { highest = std::max(highest, differences_.highest(block)); });
+    const int block = row * columns_ + column;
+    const int range = near_.highest[block] - near_.lowest[block];
+    active_[block] = highest + share * static_cast<float>(range) + far >= least_curvature;
+  });
 }
 
 }  // namespace arcstart

@@ -5,8 +5,10 @@
 #include <cstdint>
 #include <vector>
 
+#include "services/extraction/bend_bound.hpp"
 #include "services/extraction/curvature_bound.hpp"
 #include "services/extraction/grey_image.hpp"
+#include "services/extraction/second_differences.hpp"
 
 namespace arcstart {
 
@@ -14,7 +16,8 @@ class BlockRejection {
  public:
   static constexpr int kWidth = 16, kHeight = 10;  // of a block, px
 
-  // Marks the blocks that may hold a second derivative of least_curvature. Image at least 3 x 3.
+  // Marks the blocks that may hold a pixel that is bent down by least_curvature in some direction.
+  // Image at least 3 x 3.
   void mark(const GreyImage& image, const GaussianKernels& kernels, double least_curvature);
 
   int columns() const { return columns_; }
@@ -30,12 +33,17 @@ class BlockRejection {
   };
   void fold_ranges(const GreyImage& image);
   void smooth_row(const GreyImage& image, int v, int line);
+  void mark_by_range(float least_curvature);
+  void leave_out_by_bend(float least_curvature);
 
   int columns_ = 0, rows_ = 0;
   double bound_sigma_ = 0;
   CurvatureBound bound_{};
+  BendBound bend_{};
+  SecondDifferences differences_;
   Ranges smoothed_;  // grey values x 256, in every second column and row
   Ranges plain_;     // grey values
+  Ranges near_;      // likewise, of fewer around
   std::vector<std::uint16_t> lines_, work_;
   std::vector<std::uint8_t> active_;
 };
