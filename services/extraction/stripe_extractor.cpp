@@ -17,7 +17,8 @@ constexpr double kLargestOfFirst = 4.5;  // px; a sigma wanted above it the firs
 constexpr double kWidestWhite = 4;       // px; nor a stripe with a white top wider than this
 constexpr double kSigmaStep = 1.0 / 32;  // px, of the sigma followed: kernels need not be made anew
 constexpr double kFollowing = 0.2;       // share of the difference taken up by each image
-constexpr std::size_t kFewestSamples = 40;
+// Of centres by speckle, in sigma: of a contrast of 0.3 it is 0.08 to 0.12.
+constexpr double kMostScatter = 0.15;
 constexpr double kNearEnough = 0.1;  // share of sigma that makes no difference
 // Standard deviation of a second derivative under white noise is 0.2443 noise / sigma^3 (3 / (16
 // pi), rooted); what starts a segment stands out from it by eight times.
@@ -112,67 +113,17 @@ void StripeExtractor::follow_scale() {
   if (const double wanted = wanted_sigma(); wanted > 0) sigma_ += kFollowing * (wanted - sigma_);
 }
 
-// The law knows white noise alone; the surface's grain scatters the centres more, the fainter the
-// stripe, and speckle does whatever its strength. By how much: from the distances of centres from
-// the chord between two farther along, at which their errors no longer hang together; those of the
-// stronger half and of the fainter half of the centres tell both parts.
-StripeExtractor::Scatter StripeExtractor::scatter(const std::vector<Centre>& centres,
-                                                  double sigma) {
-  const auto lag = static_cast<std::size_t>(std::max(6.0, std::ceil(4 * sigma)));
-  struct Sample {
-    float law, square;  // variance by the law and as seen; px^2
-  };
-  FrameVector<Sample> samples(&memory_);
-  for (const Branch& branch : selection_.branches) {
-    if (!branch.chosen) continue;
-    for (std::size_t i = lag; i + lag < branch.points.size(); ++i) {
-      const Centre &a = centres[branch.points[i - lag]], &p = centres[branch.points[i]],
-                   &b = centres[branch.points[i + lag]];
-      const double du = b.u - a.u, dv = b.v - a.v, length = std::hypot(du, dv);
-      if (length == 0) continue;
-      const double distance = ((p.u - a.u) * dv - (p.v - a.v) * du) / length;
-      samples.push_back({p.deviation * p.deviation,
-                         static_cast<float>(distance * distance / 1.5)});  // 1 + 1/4 + 1/4
-    }
-  }
-  if (samples.size() < kFewestSamples) return {};
-  const auto middle = samples.begin() + static_cast<std::ptrdiff_t>(samples.size() / 2);
-  std::nth_element(samples.begin(), middle, samples.end(),
-                   [](const Sample& a, const Sample& b) { return a.law < b.law; });
-  // Median of a square is 0.4549 of its mean, for a normal error.
-  const auto half = [](auto begin, auto end) {
-    const auto at = begin + (end - begin) / 2;
-    std::nth_element(begin, at, end,
-                     [](const Sample& a, const Sample& b) { return a.law < b.law; });
-    const double law = at->law;
-    std::nth_element(begin, at, end,
-                     [](const Sample& a, const Sample& b) { return a.square < b.square; });
-    return std::pair(law, at->square / 0.4549);
-  };
-  const auto [strong_law, strong_square] = half(samples.begin(), middle);
-  const auto [faint_law, faint_square] = half(middle, samples.end());
-  Scatter scatter;
-  scatter.variance = (strong_square + faint_square) / 2;
-  scatter.per_law = (faint_square - strong_square) / (faint_law - strong_law);
-  if (scatter.per_law < strong_square / strong_law) {
-    scatter.per_law = std::max(scatter.per_law, 1.0);
-    scatter.base = std::max(0.0, scatter.variance - scatter.per_law * (strong_law + faint_law) / 2);
-  } else {  // all of it grows with the law
-    scatter.per_law = std::max(1.0, 2 * scatter.variance / (strong_law + faint_law));
-  }
-  return scatter;
-}
-
 void StripeExtractor::set_out(const GreyImage& image, const Branch& branch) {
   course_points_.clear();
   for (const int i : branch.points) {
     const RidgePoint& p = points_[i];
-    const Centre& c = centres_[i];
+    const MeasuredCentre& c = centres_[i];
     const bool at_border = std::min({p.column, p.row, image.width - 1 - p.column,
                                      image.height - 1 - p.row}) < std::ceil(2 * c.sigma);
-    CoursePoint point{c.u, c.v,
-                      std::sqrt(scatter_.base + scatter_.per_law * c.deviation * c.deviation),
-                      c.sigma, at_border};
+    // What seems to scatter more than speckle can is the surface's own shape.
+    const double seen = std::sqrt(scatter_.base + scatter_.per_law * c.deviation * c.deviation),
+                 most = std::max<double>(kMostScatter * c.sigma, c.deviation);
+    CoursePoint point{c.u, c.v, std::min(seen, most), c.sigma, at_border};
     if (selection_.along_rows) std::swap(point.along, point.across);
     course_points_.push_back(point);
   }
@@ -227,14 +178,14 @@ void StripeExtractor::measure(const GreyImage& image) {
     centres_.push_back({p.u, p.v,
                         static_cast<float>(centre_deviation(p.curvature, used_sigma_, noise_)),
                         static_cast<float>(used_sigma_)});
-  scatter_ = scatter(centres_, used_sigma_);
+  scatter_ = scatter_of(selection_.branches, centres_, used_sigma_, &memory_);
   if (settings_.sigma_px != 0 || !settings_.smooth_course) return;
   const double share = settings_.measuring_sigma_per_width / settings_.sigma_per_width;
   const double sigma =
       std::max(kLeastSigma, std::round(share * used_sigma_ / kSigmaStep) * kSigmaStep);
   if (sigma >= used_sigma_) return;
   measure_at(image, sigma);
-  const Scatter finer = scatter(finer_, used_sigma_);
+  const CentreScatter finer = scatter_of(selection_.branches, finer_, used_sigma_, &memory_);
   if (finer.variance * sigma >= scatter_.variance * used_sigma_) return;
   std::swap(centres_, finer_);
   scatter_ = finer;

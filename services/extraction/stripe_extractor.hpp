@@ -11,6 +11,7 @@
 #include "services/extraction/grey_image.hpp"
 #include "services/extraction/linking.hpp"
 #include "services/extraction/ridge.hpp"
+#include "services/extraction/scatter.hpp"
 #include "services/extraction/segment_ends.hpp"
 #include "services/extraction/selection.hpp"
 
@@ -49,24 +50,11 @@ class StripeExtractor {
   double active_share() const { return detector_.active_share(); }  // of the last image's blocks
 
  private:
-  // The centre of a point, which may have been measured at another sigma than it was found at.
-  struct Centre {
-    float u, v;       // px
-    float deviation;  // by the law of white noise; px
-    float sigma;      // px
-  };
-  // A centre's variance: base + per_law x that of white noise.
-  struct Scatter {
-    double base = 0;  // px^2
-    double per_law = 1;
-    double variance = 0;  // of the middle one of all; px^2
-  };
   void look_at(const GreyImage& image, double sigma);
   void find_scale(const GreyImage& image);
   void follow_scale();
   double chosen_strength() const;
-  double wanted_sigma();  // from the widths seen; px, 0 where too few
-  Scatter scatter(const std::vector<Centre>& centres, double sigma);
+  double wanted_sigma();                        // from the widths seen; px, 0 where too few
   double strong_curvature(double sigma) const;  // of what starts a segment; grey values / px^2
   void measure(const GreyImage& image);
   void measure_at(const GreyImage& image, double sigma);
@@ -87,8 +75,8 @@ class StripeExtractor {
   GaussianKernels kernels_;
   std::vector<RidgePoint> points_;
   std::vector<Chain> chains_;
-  std::vector<Centre> centres_, finer_;  // of each point
-  Scatter scatter_;
+  std::vector<MeasuredCentre> centres_, finer_;  // of each point
+  CentreScatter scatter_;
   GaussianKernels measuring_kernels_;
   std::vector<RidgePoint> about_, measured_;
   std::vector<float> widths_;  // of each point; px, 0 where not measured

@@ -4,18 +4,15 @@
 
 #include <algorithm>
 #include <cmath>
-#include <set>
 
 #include "services/seam_finding/flat_borders.hpp"
+#include "services/seam_finding/flat_stations.hpp"
+#include "services/seam_finding/passage_line.hpp"
 #include "services/seam_finding/plane_fit.hpp"
 
 namespace arcstart {
 namespace {
 
-constexpr double kOnLine = 2;           // a passage from its line; mm
-constexpr double kLeastBase = 10;       // between the passages that draw a line; mm
-constexpr double kSteepest = 0.8;       // of it, mm across for each mm along
-constexpr std::size_t kDrawn = 200;     // passages that may draw one
 constexpr double kThrough = 0.6;        // share of the sections in which a seam shows
 constexpr double kFullReach = 10;       // as in joints.cpp; mm
 constexpr double kWiderThanHigh = 1.5;  // the upper plate of a lap
@@ -25,63 +22,12 @@ constexpr double kLeastNear = 0.15;     // mm
 constexpr double kEndDeviation = 0.25;  // of a stripe's end at a gap, standard; mm
 constexpr double kUnsteady = 0.4;       // deviation of a seam across; mm
 constexpr double kLeastReach = 15;      // of a plate away from the seam; mm
-constexpr double kStepMargin = 1.2;     // steps
-constexpr double kLeastSlack = 1;       // a stripe's end is lost before an edge; mm
 constexpr double kHiddenFoot = 0.5;     // of a lap's score: whoever scans one looks at its foot
 constexpr double kShadow = 2;           // beside a step, over its height
 
-struct Candidate {
-  PlateFrame frame;
-  std::array<int, 2> faces{};     // at the smaller `across`, at the larger
-  std::vector<Passage> passages;  // on one line
-  double share = 0;               // of the sections that see both plates there
-};
-
-Eigen::Vector3d place_of(const ScanCloud& cloud, const PlateFrame& frame, const Passage& passage) {
-  return frame.of((cloud.points[passage.last] + cloud.points[passage.first]) / 2);
-}
-
-// The passages that lie together on the line which most sections support.
-std::vector<Passage> on_one_line(const ScanCloud& cloud, const PlateFrame& frame,
-                                 const std::vector<Passage>& passages) {
-  std::vector<Eigen::Vector3d> places;
-  for (const Passage& passage : passages) places.push_back(place_of(cloud, frame, passage));
-  const std::size_t stride = 1 + passages.size() / kDrawn;
-  std::size_t most = 0;
-  std::vector<Passage> best;
-  for (std::size_t a = 0; a < places.size(); a += stride)
-    for (std::size_t b = a + stride; b < places.size(); b += stride) {
-      const double base = places[b].x() - places[a].x();
-      const double slope = (places[b].y() - places[a].y()) / base;
-      if (std::abs(base) < kLeastBase || std::abs(slope) > kSteepest) continue;
-      std::set<int> sections;
-      std::vector<Passage> chosen;
-      for (std::size_t i = 0; i < places.size(); ++i) {
-        const double off = places[i].y() - places[a].y() - slope * (places[i].x() - places[a].x());
-        if (std::abs(off) <= kOnLine && sections.insert(passages[i].section).second)
-          chosen.push_back(passages[i]);
-      }
-      if (chosen.size() > most) most = chosen.size(), best = std::move(chosen);
-    }
-  return best;
-}
-
-// Of the sections between the first and the last of the passages: in how many one of them lies.
-double share_of_sections(const ScanCloud& cloud, const std::vector<Section>& sections,
-                         const std::vector<Passage>& passages) {
-  int first = passages.front().section, last = first, known = 0;
-  for (const Passage& passage : passages)
-    first = std::min(first, passage.section), last = std::max(last, passage.section);
-  for (int k = first; k <= last; ++k)
-    known += !cloud.organised() || cloud.stripes[k].seen != ScanStripe::Seen::kMissing
-                 ? !sections[k].empty()
-                 : 0;
-  return static_cast<double>(passages.size()) / std::max(1, known);
-}
-
 // A plate's points on its own side of its border, and the plane through those near it.
-JointPlate plate_of(const ScanCloud& cloud, const Candidate& candidate, const Face& face, int plate,
-                    double across_of_line, double slope, double contact) {
+JointPlate plate_of(const ScanCloud& cloud, const PassageLine& candidate, const Face& face,
+                    int plate, double across_of_line, double slope, double contact) {
   const double outward = plate == 0 ? -1 : 1;
   JointPlate result;
   result.contact = contact;
@@ -137,7 +83,7 @@ double reach_of(const ScanCloud& cloud, const JointPlate& plate, const Line& bor
   return *high;
 }
 
-void set_type(const ScanCloud& cloud, const Candidate& candidate, const FlatSearch& search,
+void set_type(const ScanCloud& cloud, const PassageLine& candidate, const FlatSearch& search,
               const Scales& scales, double near, Joint& joint) {
   const PlateFrame& frame = candidate.frame;
   const std::array<Plane, 2> planes = {joint.plates[0].plane, joint.plates[1].plane};
@@ -200,7 +146,7 @@ void set_type(const ScanCloud& cloud, const Candidate& candidate, const FlatSear
     joint.flaw = fmt::format("its gap is {:.1f} mm", width);
 }
 
-void judge(const ScanCloud& cloud, const Candidate& candidate, const FlatSearch& search,
+void judge(const ScanCloud& cloud, const PassageLine& candidate, const FlatSearch& search,
            const Scales& scales, Joint& joint) {
   const CourseSearch course{scales.spacing, scales.tolerance};
   joint.course = find_course(stations_of_both(stations_by_border(cloud, joint, course)), course);
@@ -227,23 +173,30 @@ void judge(const ScanCloud& cloud, const Candidate& candidate, const FlatSearch&
 }
 
 // In the middle of the scan's way a plate that a stripe leaves is there for the width alone.
-void measure_gaps(const ScanCloud& cloud, const Candidate& candidate, Joint& joint) {
+void measure_gaps(const ScanCloud& cloud, const PassageLine& candidate, Joint& joint) {
   FlatSeam& flat = *joint.flat;
   if (joint.type == JointType::kLap) return;
   const Eigen::Vector3d across = (joint.line.direction.cross(candidate.frame.normal)).normalized();
   const double width = std::abs(across.dot(flat.borders[1].point - flat.borders[0].point));
+  double steps = 0;  // across, between a thinned-out stripe's points at the gap
+  int thinned = 0;
   for (const Passage& passage : candidate.passages) {
     const Eigen::Vector3d &a = cloud.points[passage.last], &b = cloud.points[passage.first];
     double seen = std::abs(across.dot(b - a));
-    if (!cloud.origins[passage.last].segment_end || !cloud.origins[passage.first].segment_end)
-      seen = width;  // a thinned-out stripe tells no more than the lines through all of them
+    if (!cloud.origins[passage.last].segment_end || !cloud.origins[passage.first].segment_end) {
+      steps += seen / static_cast<double>(passage.between.size() + 1);
+      ++thinned;
+      seen = width;  // such a stripe tells no more than the lines through all of them
+    }
     flat.gaps.push_back({joint.line.along((a + b) / 2), seen});
   }
-  flat.gap_deviation = kEndDeviation * std::sqrt(2.0);
+  // Narrow gaps show where a point happens to lie in them: their stripes err alike.
+  const double step = thinned > 0 ? steps / thinned : 0;
+  flat.gap_deviation = std::sqrt(2.0) * std::hypot(kEndDeviation, step / std::sqrt(12.0));
 }
 
 std::optional<Joint> joint_at(const ScanCloud& cloud, const std::vector<Face>& faces,
-                              const Candidate& candidate, const FlatSearch& search,
+                              const PassageLine& candidate, const FlatSearch& search,
                               const Scales& scales, double near) {
   if (static_cast<int>(candidate.passages.size()) < search.stripes_min) return std::nullopt;
   std::vector<BorderPlace> places;
@@ -269,22 +222,6 @@ std::optional<Joint> joint_at(const ScanCloud& cloud, const std::vector<Face>& f
   judge(cloud, candidate, search, scales, joint);
   if (joint.flaw.empty()) measure_gaps(cloud, candidate, joint);
   return joint;
-}
-
-// A stripe that runs on to a plate's border has its nearest point, one more than the tolerance
-// away, within a step between points; one that leaves the plate before has not.
-double running_on(const ScanCloud& cloud, const JointPlate& plate, double tolerance) {
-  std::vector<double> steps;
-  for (std::size_t i = 1; i < plate.points.size(); ++i) {
-    const int a = plate.points[i - 1], b = plate.points[i];
-    if (b == a + 1 && cloud.origins[a].stripe == cloud.origins[b].stripe &&
-        cloud.origins[a].segment == cloud.origins[b].segment)
-      steps.push_back((cloud.points[b] - cloud.points[a]).norm());
-  }
-  if (steps.empty()) return plate.contact;
-  const auto high = steps.begin() + static_cast<std::ptrdiff_t>(9 * (steps.size() - 1) / 10);
-  std::nth_element(steps.begin(), high, steps.end());
-  return std::min(plate.contact, tolerance + std::max(kLeastSlack, kStepMargin * *high));
 }
 
 bool parallel(const Face& a, const Face& b, double tolerance) {
@@ -320,7 +257,7 @@ std::vector<Joint> find_flat_joints(const ScanCloud& cloud, const std::vector<Fa
         std::vector<Passage> passages;
         for (const Passage& passage : all)
           if (passage.rising == rising || a == b) passages.push_back(passage);
-        Candidate candidate;
+        PassageLine candidate;
         candidate.frame = frame;
         candidate.faces = rising ? std::array<int, 2>{a, b} : std::array<int, 2>{b, a};
         candidate.passages = on_one_line(cloud, frame, passages);
@@ -332,45 +269,6 @@ std::vector<Joint> find_flat_joints(const ScanCloud& cloud, const std::vector<Fa
     }
   }
   return joints;
-}
-
-std::array<Stations, 2> stations_by_border(const ScanCloud& cloud, const Joint& joint,
-                                           const CourseSearch& search) {
-  std::array<Stations, 2> stations;
-  for (int j = 0; j < 2; ++j) {
-    const Line& border = joint.flat->borders[j];
-    // Of a lap the other plate lies at another height, where stripes cross elsewhere.
-    std::array<JointPlate, 2> plates = joint.plates;
-    plates[1 - j].points.clear();
-    stations[j] = stations_along(cloud, plates, border, search);
-    for (Station& station : stations[j].list)
-      station.along = joint.line.along(border.at(station.along));
-    if (cloud.organised())
-      stations[j].near[j] = running_on(cloud, joint.plates[j], search.tolerance);
-  }
-  return stations;
-}
-
-Stations stations_of_both(const std::array<Stations, 2>& by_border) {
-  Stations both = by_border[0];
-  both.near[1] = by_border[1].near[1];
-  for (Station& station : both.list) {
-    // The same stripe or, without stripes, the same place.
-    const auto off = [&](const Station& s) {
-      return station.stripe >= 0 ? std::abs(s.stripe - station.stripe)
-                                 : std::abs(s.along - station.along);
-    };
-    const auto& others = by_border[1].list;
-    const auto same =
-        std::min_element(others.begin(), others.end(),
-                         [&](const Station& a, const Station& b) { return off(a) < off(b); });
-    if (same == others.end()) continue;
-    station.nearest[1] = same->nearest[1];
-    station.along = (station.along + same->along) / 2;
-  }
-  std::stable_sort(both.list.begin(), both.list.end(),
-                   [](const Station& a, const Station& b) { return a.along < b.along; });
-  return both;
 }
 
 }  // namespace arcstart

@@ -25,12 +25,4 @@ struct FlatSearch {
 std::vector<Joint> find_flat_joints(const ScanCloud& cloud, const std::vector<Face>& faces,
                                     const FlatSearch& search, const Scales& scales);
 
-// As stations_along(), for each plate by its own border: a stripe at a slant crosses the two at
-// unlike places. Places are along the joint's line; each holds for its plate alone.
-std::array<Stations, 2> stations_by_border(const ScanCloud& cloud, const Joint& joint,
-                                           const CourseSearch& search);
-
-// Both plates together; a station lies half-way between its two crossings.
-Stations stations_of_both(const std::array<Stations, 2>& by_border);
-
 }  // namespace arcstart

@@ -6,6 +6,7 @@
 
 #include "services/seam_finding/flat_ends.hpp"
 #include "services/seam_finding/flat_joints.hpp"
+#include "services/seam_finding/flat_stations.hpp"
 #include "services/seam_finding/flat_survey.hpp"
 
 namespace arcstart {

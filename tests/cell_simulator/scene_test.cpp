@@ -1,75 +1,15 @@
-#include "services/cell_simulator/scene.hpp"
-
-#include <Eigen/Dense>
 #include <catch2/catch.hpp>
 #include <filesystem>
 #include <fstream>
-#include <numbers>
 #include <set>
 
 #include "services/cell_simulator/laser_fan.hpp"
 #include "services/cell_simulator/sensor_camera.hpp"
+#include "tests/cell_simulator/scene_measures.hpp"
 
 using namespace arcstart;
+using namespace arcstart::test;
 using Catch::Matchers::Contains;
-
-namespace {
-
-constexpr double degree = std::numbers::pi / 180;
-
-// For what has nothing to do with the table: one that is quickly made.
-SceneSettings with_coarse_table() {
-  SceneSettings settings;
-  settings.table_pitch_mm = 70;
-  return settings;
-}
-
-const SceneObject& object(const Scene& scene, const std::string& name) {
-  for (const SceneObject& candidate : scene.objects())
-    if (candidate.name == name) return candidate;
-  FAIL("no " << name);
-  throw 0;
-}
-
-bool has(const Scene& scene, const std::string& name) {
-  for (const SceneObject& candidate : scene.objects())
-    if (candidate.name == name) return true;
-  return false;
-}
-
-bool same(const TriangleMesh& a, const TriangleMesh& b) {
-  return a.triangles == b.triangles && a.corners == b.corners;
-}
-
-// The face of a plate whose outward normal is nearest to a direction: a point of it and that
-// normal.
-struct Face {
-  Eigen::Vector3d point, normal;
-};
-Face face_towards(const TriangleMesh& mesh, const Eigen::Vector3d& direction) {
-  Face best;
-  double most = -2;
-  for (const auto& [a, b, c] : mesh.triangles) {
-    const Eigen::Vector3d normal =
-        (mesh.corners[b] - mesh.corners[a]).cross(mesh.corners[c] - mesh.corners[a]).normalized();
-    if (normal.dot(direction) > most) {
-      most = normal.dot(direction);
-      best = {mesh.corners[a], normal};
-    }
-  }
-  return best;
-}
-
-std::pair<double, double> extent(const TriangleMesh& mesh, const Eigen::Vector3d& direction) {
-  double low = 1e9, high = -1e9;
-  for (const auto& corner : mesh.corners) {
-    low = std::min(low, direction.dot(corner));
-    high = std::max(high, direction.dot(corner));
-  }
-  return {low, high};
-}
-
-}  // namespace
 
 TEST_CASE("the true seam is the meshes' own") {
   for (const double joint_angle : {90.0, 75.0, 105.0}) {
@@ -84,8 +24,8 @@ TEST_CASE("the true seam is the meshes' own") {
         CHECK(seam.joint_type == "tee");
         const TriangleMesh &base = object(scene, "base plate").mesh,
                            &upright = object(scene, "upright plate").mesh;
-        const Face floor = face_towards(base, Eigen::Vector3d::UnitZ());
-        const Face wall = face_towards(upright, -Eigen::Vector3d::UnitY());
+        const FlatFace floor = face_towards(base, Eigen::Vector3d::UnitZ());
+        const FlatFace wall = face_towards(upright, -Eigen::Vector3d::UnitY());
         CHECK((seam.normals[0] - floor.normal).norm() < 1e-9);
         CHECK((seam.normals[1] - wall.normal).norm() < 1e-9);
         for (const Eigen::Vector3d& end : {seam.start, seam.end}) {
@@ -109,61 +49,6 @@ TEST_CASE("the true seam is the meshes' own") {
       }
     }
   }
-}
-
-TEST_CASE("the true seams of the other joints are the meshes' own") {
-  for (const std::string joint : {"outside_corner", "lap", "butt", "v"})
-    for (const double gap : {0.0, 1.5})
-      for (std::uint64_t seed = 1; seed <= 10; ++seed) {
-        SceneSettings settings = with_coarse_table();
-        settings.joint = joint;
-        settings.root_gap_mm = gap;
-        const Scene scene = make_scene(settings, SceneKind::workpiece, seed);
-        const SeamTruth& seam = *scene.seam();
-        INFO(joint << ", gap " << gap << ", seed " << seed);
-        CHECK(seam.joint_type == joint);
-        const TriangleMesh &first = scene.objects()[1].mesh, &second = scene.objects()[2].mesh;
-        const Eigen::Vector3d up = seam.normals[0], across = up.cross(seam.direction);
-        const Eigen::Vector3d middle = (seam.start + seam.end) / 2;
-        const auto lies = [&](const TriangleMesh& mesh, const Eigen::Vector3d& way) {
-          const auto [low, high] = extent(mesh, way);
-          return std::pair(low - way.dot(middle), high - way.dot(middle));
-        };
-        // The seam lies in the first plate's top, which is its highest part.
-        CHECK((face_towards(first, up).normal - up).norm() < 1e-9);
-        CHECK(lies(first, up).second == Approx(0).margin(1e-9));
-        if (joint == "outside_corner") {
-          CHECK(lies(first, across).first == Approx(0).margin(1e-9));
-          CHECK(lies(second, across).first == Approx(0).margin(1e-9));
-          CHECK(lies(second, up).second == Approx(-gap).margin(1e-9));
-          const Eigen::Vector3d mitre = (across + up) / std::sqrt(2);
-          CHECK(lies(second, mitre).second == Approx(-gap / std::sqrt(2)).margin(1e-9));
-          CHECK((seam.normals[1] + across).norm() < 1e-9);
-          CHECK(seam.angle == Approx(270 * degree));
-        } else if (joint == "lap") {
-          CHECK(lies(second, across).first == Approx(0).margin(1e-9));
-          CHECK(lies(second, up).first == Approx(gap).margin(1e-9));
-          CHECK(lies(first, across).first < -30);
-          CHECK(seam.angle == Approx(180 * degree));
-        } else {  // in the middle of the gap, on either side half of it
-          CHECK(lies(first, across).second == Approx(-gap / 2).margin(1e-9));
-          CHECK(lies(second, across).first == Approx(gap / 2).margin(1e-9));
-          CHECK(lies(second, up).second == Approx(0).margin(1e-9));
-          CHECK(lies(second, up).first == Approx(lies(first, up).first).margin(1e-9));
-          CHECK(seam.angle == Approx((joint == "v" ? 60 : 180) * degree));
-          if (joint == "v") {
-            const Face slant = face_towards(first, across + 0.5 * up);
-            CHECK(std::acos(slant.normal.dot(across)) == Approx(30 * degree));
-          }
-        }
-        // It begins where both have begun and ends where one ends.
-        CHECK(std::max(lies(first, seam.direction).first, lies(second, seam.direction).first) ==
-              Approx(seam.direction.dot(seam.start - middle)));
-        CHECK(std::min(lies(first, seam.direction).second, lies(second, seam.direction).second) ==
-              Approx(seam.direction.dot(seam.end - middle)));
-        for (const TriangleMesh* mesh : {&first, &second})
-          CHECK(extent(*mesh, Eigen::Vector3d::UnitZ()).first > -1e-9);  // on the table
-      }
 }
 
 TEST_CASE("seeds move, turn, tilt and size the work within their ranges and use them") {

@@ -1,5 +1,5 @@
 arcstart_test(cell_scene_test
-  SOURCES mesh_test.cpp stl_test.cpp sensor_camera_test.cpp laser_fan_test.cpp scene_test.cpp scene_settings_test.cpp
+  SOURCES mesh_test.cpp stl_test.cpp sensor_camera_test.cpp laser_fan_test.cpp scene_test.cpp joints_test.cpp scene_settings_test.cpp
           sensor_noise_test.cpp stripe_image_test.cpp ghost_and_shadow_test.cpp
   LINK arcstart::cell_scene arcstart::sensor_model opencv_core opencv_calib3d)
 

@@ -117,6 +117,21 @@ TEST_CASE("the noise is that of the image") {
   CHECK(extract(image_of(150, 2, noise)).noise == Approx(expected).epsilon(0.1));
 }
 
+TEST_CASE("a surface's own shape is followed, not smoothed as if it were scatter") {
+  constexpr double kAmplitude = 8, kWavelength = 120, kWidth = 4;  // px
+  const auto crest = [&](double u) {
+    return 150 + kAmplitude * std::sin(2 * CV_PI * u / kWavelength);
+  };
+  cv::Mat light = darkness(600, 300);
+  for (int u = 0; u < light.cols; ++u)
+    for (int v = 0; v < light.rows; ++v)
+      light.at<float>(v, u) +=
+          static_cast<float>(150 * std::exp(-0.5 * std::pow((v - crest(u)) / kWidth, 2)));
+  const Stripe stripe = extract(expose(light, 2));
+  REQUIRE(stripe.centres.size() > 580);
+  for (const StripeCentre& c : stripe.centres) CHECK(std::abs(c.v - crest(c.u)) < 0.8);
+}
+
 TEST_CASE("a centre's deviation tells its error") {
   const auto check = [](const cv::Mat& grey, double slope, double lowest, double highest) {
     const Stripe stripe = extract(grey);

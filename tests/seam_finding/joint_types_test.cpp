@@ -95,7 +95,7 @@ TEST_CASE("thickness, gap and groove are measured") {
   const SeamResult butted = find(make_scene({.joint = "butt"}, 2), "butt", 2);
   REQUIRE(found(butted));
   CHECK(std::abs(butted.gap - 1) < 2.5 * butted.gap_deviation);
-  CHECK(butted.gap_deviation < 0.5);
+  CHECK(butted.gap_deviation < 0.8);  // points 1.4 mm apart
   int measured = 0;
   for (const SurveyPlace& place : butted.stations) measured += place.gap >= 0;
   CHECK(2 * measured > static_cast<int>(butted.stations.size()));
