@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <iterator>
 
 namespace arcstart {
 namespace {
@@ -12,21 +13,27 @@ constexpr std::size_t kFewestSamples = 40;
 
 CentreScatter scatter_of(const std::vector<Branch>& branches,
                          const std::vector<MeasuredCentre>& centres, double sigma, Memory memory) {
-  const auto lag = static_cast<std::size_t>(std::max(6.0, std::ceil(4 * sigma)));
+  const auto lag = static_cast<std::ptrdiff_t>(std::max(3.0, std::ceil(2 * sigma)));
   struct Sample {
     float law, square;  // variance by the law and as seen; px^2
   };
   FrameVector<Sample> samples(memory);
   for (const Branch& branch : branches) {
     if (!branch.chosen) continue;
-    for (std::size_t i = lag; i + lag < branch.points.size(); ++i) {
-      const MeasuredCentre &a = centres[branch.points[i - lag]], &p = centres[branch.points[i]],
-                           &b = centres[branch.points[i + lag]];
-      const double du = b.u - a.u, dv = b.v - a.v, length = std::hypot(du, dv);
+    for (std::ptrdiff_t i = 2 * lag; i + 2 * lag < std::ssize(branch.points); ++i) {
+      const int* here = branch.points.data() + i;
+      const MeasuredCentre &a = centres[here[-2 * lag]], &b = centres[here[-lag]],
+                           &p = centres[*here], &c = centres[here[lag]],
+                           &d = centres[here[2 * lag]];
+      const double du = c.u - b.u, dv = c.v - b.v, length = std::hypot(du, dv);
       if (length == 0) continue;
-      const double distance = ((p.u - a.u) * dv - (p.v - a.v) * du) / length;
-      samples.push_back({p.deviation * p.deviation,
-                         static_cast<float>(distance * distance / 1.5)});  // 1 + 1/4 + 1/4
+      const double u = a.u - 4 * b.u + 6 * p.u - 4 * c.u + d.u,
+                   v = a.v - 4 * b.v + 6 * p.v - 4 * c.v + d.v;
+      const double across = (u * dv - v * du) / length;
+      const double near = std::exp(-static_cast<double>(lag * lag) / (4 * p.sigma * p.sigma));
+      const double variances = 70 - 112 * near + 56 * std::pow(near, 4) - 16 * std::pow(near, 9);
+      samples.push_back(
+          {p.deviation * p.deviation, static_cast<float>(across * across / variances)});
     }
   }
   if (samples.size() < kFewestSamples) return {};

@@ -23,9 +23,10 @@ struct CentreScatter {
 };
 
 // The law knows white noise alone; the surface's grain scatters the centres more, the fainter the
-// stripe, and speckle does whatever its strength. By how much: from the distances of centres from
-// the chord between two farther along, at which their errors no longer hang together; those of the
-// stronger half and of the fainter half of the centres tell both parts.
+// stripe, and speckle does whatever its strength. By how much: from fourth differences of centres
+// two sigma apart, in which the surface's own bends all but vanish; errors of centres so far apart
+// hang together by exp(-d^2 / (4 sigma^2)). Those of the stronger half and of the fainter half of
+// the centres tell both parts.
 // centres: of each point that the branches name. The law alone where too few are chosen.
 CentreScatter scatter_of(const std::vector<Branch>& branches,
                          const std::vector<MeasuredCentre>& centres, double sigma, Memory memory);
