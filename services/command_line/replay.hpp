@@ -15,7 +15,7 @@ namespace arcstart {
 
 struct ReplayedSeam {
   std::int8_t kind;  // of the scan: scan_t.BACKGROUND or WORKPIECE
-  seam_t seam;
+  seam_t seam{};
   std::vector<std::uint8_t> bytes;  // as it was sent
 };
 

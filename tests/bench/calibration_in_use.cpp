@@ -61,8 +61,8 @@ std::optional<Calibration> found_calibration(const SensorSettings& sensor, std::
 }
 
 struct Outcome {
-  seam_t seam;
-  truth_t truth;
+  seam_t seam{};
+  truth_t truth{};
 };
 
 Outcome scan_with(const SimulatedScanSettings& settings, std::uint64_t seed) {

@@ -13,8 +13,8 @@ namespace arcstart {
 namespace {
 
 struct Outcome {
-  seam_t seam;
-  truth_t truth;
+  seam_t seam{};
+  truth_t truth{};
 };
 
 // How the pipeline is set for a row.

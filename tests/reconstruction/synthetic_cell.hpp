@@ -24,7 +24,7 @@ cv::Matx44d tool_at(double seconds);
 robot_pose_t pose_at(std::int64_t time);
 
 struct TrueStripe {
-  stripe_t message;
+  stripe_t message{};
   std::vector<cv::Vec3d> points;  // on the table in base, one for each centre; mm
 };
 // Exposed at this time after kBegin, us; stamped kImageDelay later.

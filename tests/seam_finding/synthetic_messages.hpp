@@ -10,7 +10,7 @@
 namespace arcstart::synthetic {
 
 struct ScanMessages {
-  scan_t scanning, ended;
+  scan_t scanning{}, ended{};
   std::vector<profile_t> profiles;
 };
 
