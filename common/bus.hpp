@@ -14,19 +14,19 @@
 #include <lcm/lcm-cpp.hpp>
 #include <memory>
 #include <mutex>
-#include <stdexcept>
 #include <string>
 #include <thread>
 #include <vector>
 
 #include "common/configuration.hpp"
+#include "common/input_error.hpp"
 #include "common/message_checks.hpp"
 
 namespace arcstart {
 
-class BusError : public std::runtime_error {
+class BusError : public InputError {
  public:
-  using std::runtime_error::runtime_error;
+  using InputError::InputError;
 };
 
 // Section `bus` of cell.yaml.

@@ -15,18 +15,19 @@
 #include <array>
 #include <functional>
 #include <set>
-#include <stdexcept>
 #include <string>
 #include <type_traits>
 #include <vector>
+
+#include "common/input_error.hpp"
 
 namespace arcstart {
 
 // "cell.yaml:12: extraction.sigma_px: must lie between 0.8 and 12, is -1". Programs print it and
 // exit 2.
-class ConfigurationError : public std::runtime_error {
+class ConfigurationError : public InputError {
  public:
-  using std::runtime_error::runtime_error;
+  using InputError::InputError;
 };
 
 // A condition on a value: why it is impossible, empty where it is possible.

@@ -7,15 +7,16 @@
 #include <functional>
 #include <memory>
 #include <span>
-#include <stdexcept>
 #include <string>
 #include <vector>
 
+#include "common/input_error.hpp"
+
 namespace arcstart {
 
-class EventLogError : public std::runtime_error {
+class EventLogError : public InputError {
  public:
-  using std::runtime_error::runtime_error;
+  using InputError::InputError;
 };
 
 // Where an event lies in its file.

@@ -164,10 +164,7 @@ int run_service(int argc, char** argv, const ServiceDescription& description,
     const std::unique_ptr<App> app = make_app(context);
     run_loop(context, description, *app);
     return 0;
-  } catch (const ConfigurationError& error) {
-    spdlog::error("{}", error.what());
-    return 2;
-  } catch (const BusError& error) {
+  } catch (const InputError& error) {
     spdlog::error("{}", error.what());
     return 2;
   } catch (const std::exception& error) {

@@ -25,17 +25,17 @@
 // hand.
 #pragma once
 
-#include <stdexcept>
 #include <string>
 
 #include "common/calibration.hpp"
+#include "common/input_error.hpp"
 
 namespace arcstart {
 
 // "calibration.yaml:9: calibration.camera_matrix: must be a list of 4 numbers".
-class CalibrationFileError : public std::runtime_error {
+class CalibrationFileError : public InputError {
  public:
-  using std::runtime_error::runtime_error;
+  using InputError::InputError;
 };
 
 // The calibration that a file's whole text says; name stands in errors. Every key but the

@@ -7,19 +7,19 @@
 //     FOLDER/laser/NNNN.png  the stripe on it; no such folder where grid/ shows both
 #pragma once
 
-#include <stdexcept>
 #include <string>
 #include <vector>
 
 #include "common/geometry.hpp"
+#include "common/input_error.hpp"
 #include "services/calibration/plate.hpp"
 
 namespace arcstart {
 
 // One line: which file, what is wrong with it, what to do.
-class CalibrationSetError : public std::runtime_error {
+class CalibrationSetError : public InputError {
  public:
-  using std::runtime_error::runtime_error;
+  using InputError::InputError;
 };
 
 struct CalibrationPose {

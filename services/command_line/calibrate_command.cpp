@@ -154,12 +154,6 @@ int run_or_complain(const Options& options) try {
                            !options.go_on,
                            options.seed});
   return run_command(options);
-} catch (const CalibrationSetError& error) {
-  say(error.what());
-  return 2;
-} catch (const ImageFileError& error) {
-  say(error.what());
-  return 2;
 } catch (const CalibrationFileError& error) {
   say(std::string("refused: the result is no sensor that can be: ") + error.what());
   return 1;

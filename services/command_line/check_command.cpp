@@ -56,7 +56,7 @@ nlohmann::ordered_json to_json(const ScanAgreement& found, const std::string& al
   return json;
 }
 
-int run(const Options& options) try {
+int run(const Options& options) {
   const double limit_mm = options.limit_mm > 0   ? options.limit_mm
                           : options.cell.empty() ? CalibrationLimits{}.check_mm
                                                  : Configuration::from_file(options.cell)
@@ -85,15 +85,6 @@ int run(const Options& options) try {
                                          : fmt::format(", the calibration itself expects {:.3f} mm",
                                                        found.predicted_mm)));
   return 0;
-} catch (const EventLogError& error) {
-  say(error.what());
-  return 2;
-} catch (const RecordingError& error) {
-  say(error.what());
-  return 2;
-} catch (const CalibrationFileError& error) {
-  say(error.what());
-  return 2;
 }
 
 }  // namespace

@@ -9,11 +9,13 @@
 #include <utility>
 #include <vector>
 
+#include "common/input_error.hpp"
+
 namespace arcstart {
 
-class PictureError : public std::runtime_error {
+class PictureError : public InputError {
  public:
-  using std::runtime_error::runtime_error;
+  using InputError::InputError;
 };
 
 // All in one frame, mm.

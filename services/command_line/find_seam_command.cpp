@@ -155,7 +155,7 @@ void tell(const SeamResult& result) {
                     in_words(other.end, 1), other.score, other.reason));
 }
 
-int run(const Options& options) try {
+int run(const Options& options) {
   auto settings =
       options.cell.empty()
           ? SeamFindingSettings{}
@@ -188,12 +188,6 @@ int run(const Options& options) try {
   if (!options.picture.empty()) draw(cloud, result, plane, options);
   if (!options.stations.empty()) write_stations(result, options.stations);
   return result.verdict == SeamResult::Verdict::kFound ? 0 : 1;
-} catch (const PointCloudFileError& error) {
-  say(error.what());
-  return 2;
-} catch (const PictureError& error) {
-  say(error.what());
-  return 2;
 }
 
 CLI::Validator finite_vector() {

@@ -5,8 +5,7 @@
 #include <CLI/CLI.hpp>
 #include <iostream>
 
-#include "common/bus.hpp"
-#include "common/configuration.hpp"
+#include "common/input_error.hpp"
 #include "services/command_line/calibrate_command.hpp"
 #include "services/command_line/cell_command.hpp"
 #include "services/command_line/check_command.hpp"
@@ -16,6 +15,16 @@
 #include "services/command_line/replay_command.hpp"
 #include "services/command_line/scan_command.hpp"
 #include "services/command_line/time_offset_command.hpp"
+
+namespace {
+
+void complain(const CLI::App& program, const std::exception& error) {
+  const auto commands = program.get_subcommands();
+  std::cerr << (commands.empty() ? "arcstart" : commands.front()->get_name()) << ": "
+            << error.what() << "\n";
+}
+
+}  // namespace
 
 int main(int argc, char** argv) {
   using namespace arcstart;
@@ -42,14 +51,11 @@ int main(int argc, char** argv) {
     return exit_code;
   } catch (const CLI::ParseError& error) {
     return program.exit(error) == 0 ? 0 : 2;
-  } catch (const ConfigurationError& error) {
-    std::cerr << "arcstart: " << error.what() << "\n";
-    return 2;
-  } catch (const BusError& error) {
-    std::cerr << "arcstart: " << error.what() << "\n";
+  } catch (const InputError& error) {
+    complain(program, error);
     return 2;
   } catch (const std::exception& error) {
-    std::cerr << "arcstart: " << error.what() << "\n";
+    complain(program, error);
     return 1;
   }
 }

@@ -5,17 +5,18 @@
 #include <array>
 #include <cstdint>
 #include <optional>
-#include <stdexcept>
 #include <string>
 #include <string_view>
 #include <vector>
 
+#include "common/input_error.hpp"
+
 namespace arcstart {
 
 // "cloud.pcd: header promises 500 points of 12 bytes, the file holds 120 bytes: it is cut off"
-class PointCloudFileError : public std::runtime_error {
+class PointCloudFileError : public InputError {
  public:
-  using std::runtime_error::runtime_error;
+  using InputError::InputError;
 };
 
 struct PointCloud {

@@ -7,20 +7,20 @@
 #include <functional>
 #include <map>
 #include <optional>
-#include <stdexcept>
 #include <string>
 #include <vector>
 
 #include "common/event_log.hpp"
+#include "common/input_error.hpp"
 #include "services/command_line/event_order.hpp"
 #include "services/command_line/message_facts.hpp"
 
 namespace arcstart {
 
 // One clear line: which recording, what is wrong with it, what it means.
-class RecordingError : public std::runtime_error {
+class RecordingError : public InputError {
  public:
-  using std::runtime_error::runtime_error;
+  using InputError::InputError;
 };
 
 // Where the replay of a scan begins: with its images where the recording holds them, else with what

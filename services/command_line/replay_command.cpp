@@ -88,12 +88,6 @@ int run(Options& options) try {
   print(result, options.json);
   if (pictures) std::cerr << options.pictures << ": " << pictures->write() << "\n";
   return result.is_good() ? 0 : 1;
-} catch (const EventLogError& error) {
-  std::cerr << "replay: " << error.what() << "\n";
-  return 2;
-} catch (const RecordingError& error) {
-  std::cerr << "replay: " << error.what() << "\n";
-  return 2;
 }
 
 }  // namespace

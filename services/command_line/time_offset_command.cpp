@@ -58,7 +58,7 @@ void tell(const TimeOffset& found) {
       1e3 * found.offset_s, 1e3 * found.deviation_s, found.residual_mm, found.unmended_mm));
 }
 
-int run(const Options& options) try {
+int run(const Options& options) {
   const auto [sweeps, calibration] = read_judged_sweeps(options.sweeps, "time-offset");
   const TimeOffset found = find_time_offset(sweeps.record, calibration);
   tell(found);
@@ -73,15 +73,6 @@ int run(const Options& options) try {
   }
   say(options.output + ": the calibration with this time offset");
   return 0;
-} catch (const EventLogError& error) {
-  say(error.what());
-  return 2;
-} catch (const RecordingError& error) {
-  say(error.what());
-  return 2;
-} catch (const CalibrationFileError& error) {
-  say(error.what());
-  return 2;
 }
 
 }  // namespace

@@ -2,15 +2,16 @@
 #pragma once
 
 #include <opencv2/core.hpp>
-#include <stdexcept>
 #include <string>
+
+#include "common/input_error.hpp"
 
 namespace arcstart {
 
 // One line: which file, what is wrong with it, what to do.
-class ImageFileError : public std::runtime_error {
+class ImageFileError : public InputError {
  public:
-  using std::runtime_error::runtime_error;
+  using InputError::InputError;
 };
 
 // 8-bit grey values of an image file. channel: "r", "g" or "b" of a colour image; empty for a grey

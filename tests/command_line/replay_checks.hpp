@@ -33,11 +33,7 @@ inline std::string refusal(const std::vector<std::string>& paths,
   std::string what;
   try {
     replay_recordings(paths, options);
-  } catch (const RecordingError& error) {
-    what = error.what();
-  } catch (const EventLogError& error) {
-    what = error.what();
-  } catch (const ConfigurationError& error) {
+  } catch (const InputError& error) {
     what = error.what();
   }
   CHECK(what.find('\n') == std::string::npos);
