@@ -5,47 +5,46 @@
 #include <cstdint>
 #include <vector>
 
+#include "services/extraction/bend.hpp"
 #include "services/extraction/bend_bound.hpp"
 #include "services/extraction/curvature_bound.hpp"
 #include "services/extraction/grey_image.hpp"
-#include "services/extraction/second_differences.hpp"
+#include "services/extraction/smoothed_grid.hpp"
+#include "services/extraction/thread_pool.hpp"
 
 namespace arcstart {
 
 class BlockRejection {
  public:
-  static constexpr int kWidth = 16, kHeight = 10;  // of a block, px
+  // Of a block, px; it is two cells of the grid.
+  static constexpr int kWidth = 2 * SmoothedGrid::kCellWidth, kHeight = SmoothedGrid::kCellHeight;
 
   // Marks the blocks that may hold a pixel that is bent down by least_curvature in some direction.
   // Image at least 3 x 3.
-  void mark(const GreyImage& image, const GaussianKernels& kernels, double least_curvature);
+  void mark(const GreyImage& image, const GaussianKernels& kernels, double least_curvature,
+            ThreadPool& pool);
 
   int columns() const { return columns_; }
   int rows() const { return rows_; }
   bool active(int column, int row) const { return active_[row * columns_ + column] != 0; }
 
  private:
-  // Lowest and highest value of each block, then of each block and those in reach.
-  struct Ranges {
-    std::vector<std::uint16_t> lowest, highest;
-    void widen(int columns, int rows, int reach_columns, int reach_rows,
-               std::vector<std::uint16_t>& work);
-  };
-  void fold_ranges(const GreyImage& image);
-  void smooth_row(const GreyImage& image, int v, int line);
-  void mark_by_range(float least_curvature);
-  void leave_out_by_bend(float least_curvature);
+  void widen(const CellRanges& ranges, int reach, CellRanges& widened);
+  void mark_by_range(double least_curvature);
+  void leave_out_by_bend(double least_curvature, ThreadPool& pool);
 
   int columns_ = 0, rows_ = 0;
   double bound_sigma_ = 0;
   CurvatureBound bound_{};
-  BendBound bend_{};
-  SecondDifferences differences_;
-  Ranges smoothed_;  // grey values x 256, in every second column and row
-  Ranges plain_;     // grey values
-  Ranges near_;      // likewise, of fewer around
-  std::vector<std::uint16_t> lines_, work_;
-  std::vector<std::uint8_t> active_;
+  BendBound bend_bound_{};
+  SmoothedGrid grid_;
+  Bend bend_;
+  // Of each cell and those in reach of it.
+  CellRanges smoothed_, plain_, near_;
+  CellPlane highest_bend_;
+  CellPlane cells_, asked_;  // 1: may hold such a pixel; its bend is asked for
+  CellPlane work_, bend_work_;
+  std::vector<std::uint8_t> active_;  // of each block
 };
 
 }  // namespace arcstart

@@ -35,6 +35,10 @@ struct ExtractionSettings {
   // and centres up to the image's border. Else each is where its own pixel's Hessian says.
   bool smooth_course = true;
 
+  // That look for ridge points in strips of one image at once. The centres are the same, byte by
+  // byte, for any number.
+  int threads = 1;
+
   template <class Visitor>
   void visit(Visitor& visitor) {
     visitor("sigma_px", sigma_px, [](const double& value) -> std::string {
@@ -49,6 +53,7 @@ struct ExtractionSettings {
     visitor("fewest_centres", fewest_centres, between(3, 1000));
     visitor("longest_hole_px", longest_hole_px, between(1, 100));
     visitor("smooth_course", smooth_course);
+    visitor("threads", threads, between(1, 64));
   }
 };
 

@@ -1,4 +1,4 @@
-// Floats side by side in a register, for code compiled for several instruction sets.
+// Values side by side in a register, for code compiled for several instruction sets.
 #pragma once
 
 #include <cstdint>
@@ -8,23 +8,59 @@
 
 namespace arcstart {
 
+// All of one size, but for Fours: a value for each four of the words.
 template <int kFloats>
 struct Register {
   typedef float Lanes __attribute__((vector_size(4 * kFloats)));
   typedef std::int32_t Mask __attribute__((vector_size(4 * kFloats)));
+  typedef std::uint8_t Bytes __attribute__((vector_size(4 * kFloats)));
+  typedef std::uint16_t Words __attribute__((vector_size(4 * kFloats)));
+  typedef std::int16_t SignedWords __attribute__((vector_size(4 * kFloats)));
+  typedef std::uint64_t Longs __attribute__((vector_size(4 * kFloats)));
+  typedef std::uint16_t Fours __attribute__((vector_size(kFloats)));
 };
 template <int kFloats>
 using Lanes = typename Register<kFloats>::Lanes;
+template <int kFloats>
+using Words = typename Register<kFloats>::Words;
+
+template <class Vector, class Element>
+ARCSTART_INLINE_BODY Vector load_as(const Element* from) {
+  Vector vector;
+  std::memcpy(&vector, from, sizeof vector);
+  return vector;
+}
+template <class Element, class Vector>
+ARCSTART_INLINE_BODY void store(Element* to, Vector vector) {
+  std::memcpy(to, &vector, sizeof vector);
+}
+template <class Vector>
+ARCSTART_INLINE_BODY Vector higher_of(Vector a, Vector b) {
+  return a > b ? a : b;
+}
+
+// Step by step: the compiler takes one step over both apart.
+template <int kFloats>
+ARCSTART_INLINE_BODY typename Register<kFloats>::Fours low_words(
+    typename Register<kFloats>::Longs longs) {
+  typedef std::uint32_t Halves __attribute__((vector_size(2 * kFloats)));
+  return __builtin_convertvector(__builtin_convertvector(longs, Halves),
+                                 typename Register<kFloats>::Fours);
+}
+
+// The highest of each four words.
+template <int kFloats>
+ARCSTART_INLINE_BODY typename Register<kFloats>::Fours highest_of_fours(Words<kFloats> words) {
+  using Longs = typename Register<kFloats>::Longs;
+  for (const int bits : {32, 16}) words = higher_of(words, (Words<kFloats>)((Longs)words >> bits));
+  return low_words<kFloats>((Longs)words);
+}
 
 template <int kFloats>
 ARCSTART_INLINE_BODY Lanes<kFloats> load(const float* from) {
   Lanes<kFloats> lanes;
   std::memcpy(&lanes, from, sizeof lanes);
   return lanes;
-}
-template <class Vector>
-ARCSTART_INLINE_BODY void store(float* to, Vector lanes) {
-  std::memcpy(to, &lanes, sizeof lanes);
 }
 
 // Keeps a value in its register: used twice, it would be loaded twice.

@@ -29,7 +29,7 @@ void RidgeDetector::detect_lines(const GreyImage& image, const GaussianKernels& 
   points.clear();
   active_share_ = 0;
   if (std::min(image.width, image.height) <= 2 * kernels.half_width + 1) return;
-  rejection_.mark(image, kernels, strong_curvature);
+  rejection_.mark(image, kernels, strong_curvature, pool_);
   use(kernels);
 
   const int columns = rejection_.columns(), rows = rejection_.rows();
@@ -41,11 +41,12 @@ void RidgeDetector::detect_lines(const GreyImage& image, const GaussianKernels& 
   std::size_t looked_at = 0;
   while (!wanted_.empty()) {
     looked_at += wanted_.size();
-    const std::size_t before = found_.size();
     look_at_wanted(image, kernels, static_cast<float>(least_curvature), border);
     wanted_.clear();
     if (least_curvature < strong_curvature)
-      for (std::size_t i = before; i < found_.size(); ++i) want_about(found_[i], kLineReach, image);
+      for (Strip& strip : strips_)
+        for (; strip.followed < strip.found.size(); ++strip.followed)
+          want_about(strip.found[strip.followed], kLineReach, image);
     std::sort(wanted_.begin(), wanted_.end());
   }
   active_share_ = static_cast<double>(looked_at) / static_cast<double>(is_wanted_.size());
@@ -71,8 +72,11 @@ void RidgeDetector::use(const GaussianKernels& kernels) {
   smooth_.assign(kernels.smooth.begin(), kernels.smooth.end());
   first_.assign(kernels.first.begin(), kernels.first.end());
   second_.assign(kernels.second.begin(), kernels.second.end());
-  work_.resize(ridge_tile_work(kernels.half_width));
-  found_.clear();
+  for (Strip& strip : strips_) {
+    strip.work.resize(ridge_tile_work(kernels.half_width));
+    strip.found.clear();
+    strip.followed = 0;
+  }
 }
 
 void RidgeDetector::want(int column, int row) {
@@ -82,25 +86,37 @@ void RidgeDetector::want(int column, int row) {
   wanted_.push_back(block);
 }
 
+// A tile has as many of the wanted blocks as touch down the image, so that its halo is filtered
+// once.
+bool RidgeDetector::begins_tile(int i) const {
+  return i == 0 || wanted_[i] != wanted_[i - 1] + 1 || wanted_[i] % rejection_.rows() == 0;
+}
+
+// The tiles are the same for any number of strips, and so is what rounding does in them.
 void RidgeDetector::look_at_wanted(const GreyImage& image, const GaussianKernels& kernels,
                                    float least_curvature, int border) {
-  const int rows = rejection_.rows();
-  for (std::size_t i = 0; i < wanted_.size();) {
-    // One tile for as many blocks as touch down the image, so that its halo is filtered once.
-    std::size_t end = i + 1;
-    while (end < wanted_.size() && wanted_[end] == wanted_[end - 1] + 1 && wanted_[end] % rows != 0)
-      ++end;
-    const int column = wanted_[i] / rows, row = wanted_[i] % rows;
-    const int first_row = std::max(row * BlockRejection::kHeight, border);
-    const int end_row = std::min((row + static_cast<int>(end - i)) * BlockRejection::kHeight,
-                                 image.height - border);
-    if (first_row < end_row)
-      find_ridge_points({image, smooth_.data(), first_.data(), second_.data(), kernels.half_width,
-                         least_curvature, column * BlockRejection::kWidth, first_row,
-                         end_row - first_row, border, image.width - 1 - border, work_.data()},
-                        found_);
-    i = end;
-  }
+  const auto count = static_cast<int>(wanted_.size());
+  const auto next_tile = [&](int i) {
+    while (i < count && !begins_tile(i)) ++i;
+    return i;
+  };
+  pool_.run([&](int index) {
+    const StripRange share(count, index, pool_.size());
+    Strip& strip = strips_[index];
+    for (int i = next_tile(share.begin), end = 0; i < share.end; i = end) {
+      end = next_tile(i + 1);
+      const int column = wanted_[i] / rejection_.rows(), row = wanted_[i] % rejection_.rows();
+      const int first_row = std::max(row * BlockRejection::kHeight, border);
+      const int end_row =
+          std::min((row + end - i) * BlockRejection::kHeight, image.height - border);
+      if (first_row < end_row)
+        find_ridge_points(
+            {image, smooth_.data(), first_.data(), second_.data(), kernels.half_width,
+             least_curvature, column * BlockRejection::kWidth, first_row, end_row - first_row,
+             border, image.width - 1 - border, strip.work.data()},
+            strip.found);
+    }
+  });
 }
 
 void RidgeDetector::want_about(const RidgePoint& p, int reach, const GreyImage& image) {
@@ -118,17 +134,19 @@ void RidgeDetector::want_about(const RidgePoint& p, int reach, const GreyImage& 
 // Found block by block: sorted by row in one go, then within each row, where most are in order.
 void RidgeDetector::collect_in_raster_order(int height, std::vector<RidgePoint>& points) {
   row_begin_.assign(height + 1, 0);
-  for (const RidgePoint& point : found_) ++row_begin_[point.row + 1];
+  for (const Strip& strip : strips_)
+    for (const RidgePoint& point : strip.found) ++row_begin_[point.row + 1];
   for (int row = 0; row < height; ++row) row_begin_[row + 1] += row_begin_[row];
-  points.resize(found_.size());
-  for (const RidgePoint& point : found_) {
-    int at = row_begin_[point.row]++;
-    const auto goes_before = [&] {
-      return at > 0 && points[at - 1].row == point.row && points[at - 1].column > point.column;
-    };
-    for (; goes_before(); --at) points[at] = points[at - 1];
-    points[at] = point;
-  }
+  points.resize(static_cast<std::size_t>(row_begin_[height]));
+  for (const Strip& strip : strips_)
+    for (const RidgePoint& point : strip.found) {
+      int at = row_begin_[point.row]++;
+      const auto goes_before = [&] {
+        return at > 0 && points[at - 1].row == point.row && points[at - 1].column > point.column;
+      };
+      for (; goes_before(); --at) points[at] = points[at - 1];
+      points[at] = point;
+    }
 }
 
 }  // namespace arcstart

@@ -8,6 +8,7 @@
 #include "services/extraction/gaussian_kernels.hpp"
 #include "services/extraction/grey_image.hpp"
 #include "services/extraction/ridge_point.hpp"
+#include "services/extraction/thread_pool.hpp"
 
 namespace arcstart {
 
@@ -21,6 +22,11 @@ class RidgeDetector {
  public:
   // px, in columns and in rows: pixels of neighbouring points of a line lie no farther apart.
   static constexpr int kLineReach = 3;
+
+  // threads: that work on an image at once, each on a strip of it. The points do not depend on how
+  // many.
+  explicit RidgeDetector(int threads = 1)
+      : pool_(threads), strips_(static_cast<std::size_t>(threads)) {}
 
   // Every pixel whose Hessian (greys smoothed with the kernels, mirrored at the border) has a
   // negative eigenvalue of at least least_curvature in size, no smaller than the other's, and whose
@@ -50,18 +56,26 @@ class RidgeDetector {
   double active_share() const { return active_share_; }  // of the last image's blocks
 
  private:
+  // What one thread works with.
+  struct Strip {
+    std::vector<float> work;
+    std::vector<RidgePoint> found;  // block by block
+    std::size_t followed = 0;       // of those found: the blocks around them are wanted
+  };
   void want(int column, int row);
   void look_at_wanted(const GreyImage& image, const GaussianKernels& kernels, float least_curvature,
                       int border);
+  bool begins_tile(int i) const;  // the i-th wanted block
   void use(const GaussianKernels& kernels);
   void want_about(const RidgePoint& point, int reach, const GreyImage& image);
   void collect_in_raster_order(int height, std::vector<RidgePoint>& points);
 
+  ThreadPool pool_;
+  std::vector<Strip> strips_;
   BlockRejection rejection_;
-  std::vector<float> smooth_, first_, second_, work_;
+  std::vector<float> smooth_, first_, second_;
   std::vector<int> wanted_;  // blocks to be looked at, column by column
   std::vector<std::uint8_t> is_wanted_;
-  std::vector<RidgePoint> found_;  // block by block
   std::vector<int> row_begin_;
   double active_share_ = 0;
 };

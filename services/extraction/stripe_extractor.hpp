@@ -37,7 +37,8 @@ struct Stripe {
 
 class StripeExtractor {
  public:
-  explicit StripeExtractor(const ExtractionSettings& settings) : settings_(settings) {}
+  explicit StripeExtractor(const ExtractionSettings& settings)
+      : settings_(settings), detector_(settings.threads) {}
   StripeExtractor(const StripeExtractor&) = delete;
   StripeExtractor& operator=(const StripeExtractor&) = delete;
 

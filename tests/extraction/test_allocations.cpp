@@ -15,6 +15,7 @@ TEST_CASE("once warm, an image takes no memory from the heap") {
   const cv::Mat images[] = {render_stripe_scene(scene, 1).grey, render_stripe_scene(scene, 2).grey};
   ExtractionSettings settings;
   settings.sigma_px = GENERATE(0.0, 2.5);  // followed, or set
+  settings.threads = GENERATE(1, 3);
   StripeExtractor extractor(settings);
   Stripe stripe;
   // Followed, sigma comes to rest.
