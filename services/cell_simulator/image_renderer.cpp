@@ -5,6 +5,7 @@
 #include <cmath>
 #include <stdexcept>
 
+#include "services/cell_simulator/arc_light.hpp"
 #include "services/cell_simulator/scene_view.hpp"
 #include "services/cell_simulator/sensor_noise.hpp"
 #include "services/cell_simulator/stripe_canvas.hpp"
@@ -75,8 +76,9 @@ double mottle(const Eigen::Vector3d& p) {
 
 struct ImageRenderer::Buffers {
   explicit Buffers(const SensorSettings& settings)
-      : canvas(settings.optics_blur_px), noise(settings) {}
+      : canvas(settings.optics_blur_px), arc(settings), noise(settings) {}
   StripeCanvas canvas;
+  ArcLight arc;
   SensorNoise noise;
 };
 
@@ -93,6 +95,8 @@ void ImageRenderer::render(const Scene& scene, const RigidTransform& T_base_tool
                            const Exposure& exposure, std::uint64_t frame_seed, std::uint8_t* grey,
                            const ImageRegion& region) {
   draw(scene, T_base_tool, exposure, region);
+  buffers_->arc.add(buffers_->canvas, brightness(settings_, exposure), frame_seed, region.offset_x,
+                    region.offset_y);
   buffers_->noise.read_out(
       buffers_->canvas, settings_.ambient_grey * brightness(settings_, exposure),
       std::pow(10, exposure.gain_db / 20), frame_seed, region.offset_x, region.offset_y, grey);

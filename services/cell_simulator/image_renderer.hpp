@@ -42,9 +42,9 @@ class ImageRenderer {
   ImageRegion whole_image() const { return {0, 0, sensor_.width, sensor_.height}; }
 
   // The image at the middle of the exposure. grey: region.width * region.height bytes, row by row.
-  // The same arguments give the same bytes; the frame seed chooses speckle and noise. Motion blur
-  // is left out: the stripe stands still in an image whose laser moves with the camera. Throws
-  // std::invalid_argument where the region does not lie in the sensor.
+  // The same arguments give the same bytes; the frame seed chooses speckle, noise and spatter.
+  // Motion blur is left out: the stripe stands still in an image whose laser moves with the camera.
+  // Throws std::invalid_argument where the region does not lie in the sensor.
   void render(const Scene& scene, const RigidTransform& T_base_tool, const Exposure& exposure,
               std::uint64_t frame_seed, std::uint8_t* grey, const ImageRegion& region);
 

@@ -39,6 +39,12 @@ struct SensorSettings {
   double electrons_per_grey = 39;       // shot noise, at 0 dB
   double read_noise_grey = 2;           // at 0 dB
 
+  // An arc that burns close by, with the laser on or off.
+  double arc_grey = 0;  // of its glare in the middle, where it saturates; 0: no arc
+  std::array<double, 2> arc_place_share{0.5, 0.04};  // of the image's width and height
+  int spatter_streaks = 0;  // of spatter in flight, in each frame, anywhere
+  int glowing_drops = 0;    // of spatter that has come down, likewise
+
   template <class Visitor>
   void visit(Visitor& visitor) {
     visitor("image_width_px", image_width_px, between(64, 4096));
@@ -61,6 +67,10 @@ struct SensorSettings {
     visitor("speckle_contrast", speckle_contrast, between(0, 1));
     visitor("electrons_per_grey", electrons_per_grey, positive());
     visitor("read_noise_grey", read_noise_grey, between(0, 50));
+    visitor("arc_grey", arc_grey, between(0, 10000));
+    visitor("arc_place_share", arc_place_share);
+    visitor("spatter_streaks", spatter_streaks, between(0, 1000));
+    visitor("glowing_drops", glowing_drops, between(0, 1000));
   }
 };
 

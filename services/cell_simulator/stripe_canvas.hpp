@@ -2,6 +2,7 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <algorithm>
 #include <cstdint>
 #include <span>
 #include <vector>
@@ -30,6 +31,15 @@ class StripeCanvas {
   // Adds a stroke. Strokes laid end to end make one even line: each ends in the blur's own soft
   // edge.
   void add(const Stroke& stroke);
+
+  // Adds light without speckle to every pixel: grey levels by (column, row).
+  template <class Light>
+  void add_field(Light&& field) {
+    std::fill(lit_.begin(), lit_.end(), std::uint8_t{1});
+    for (int row = 0; row < height_; ++row)
+      for (int column = 0; column < width_; ++column)
+        light_[std::size_t(row) * stride_ + column] += field(column, row);
+  }
 
   int width() const { return width_; }
   int height() const { return height_; }
