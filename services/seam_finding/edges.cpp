@@ -4,6 +4,8 @@
 #include <cmath>
 #include <vector>
 
+#include "services/seam_finding/plate_stripes.hpp"
+
 namespace arcstart {
 namespace {
 
@@ -38,18 +40,6 @@ struct Place {
   bool sharp = false;  // a segment ends there, or turns over the edge
   bool occluded = false;
 };
-
-// A stripe's points on the plate, on its open side, in the stripe's order.
-std::vector<std::vector<int>> points_by_stripe(const ScanCloud& cloud, const JointPlate& plate,
-                                               const Line& line, const Eigen::Vector3d& away,
-                                               double tolerance) {
-  std::vector<std::vector<int>> stripes(cloud.stripes.size());
-  for (const int i : plate.points)
-    if (away.dot(cloud.points[i] - line.point) > tolerance &&
-        std::abs(plate.plane.signed_distance(cloud.points[i])) <= tolerance)
-      stripes[cloud.origins[i].stripe].push_back(i);
-  return stripes;
-}
 
 // Which way a stripe runs there, out of the plate; from points far enough apart for their noise.
 Eigen::Vector3d direction_at_end(const ScanCloud& cloud, const std::vector<int>& run,
@@ -213,22 +203,6 @@ std::vector<Place> largest_agreement(const std::vector<Place>& places, const Edg
   return best;
 }
 
-// What lies farther from the seam is the plate's other edge, along the seam: half of the stripes
-// reach it.
-double far_edge(const ScanCloud& cloud, const std::vector<std::vector<int>>& runs, const Line& line,
-                const Eigen::Vector3d& away) {
-  std::vector<double> reaches;
-  for (const auto& run : runs) {
-    double reach = 0;
-    for (const int i : run) reach = std::max(reach, away.dot(cloud.points[i] - line.point));
-    if (reach > 0) reaches.push_back(reach);
-  }
-  if (reaches.empty()) return 0;
-  const auto middle = reaches.begin() + static_cast<std::ptrdiff_t>(reaches.size() / 2);
-  std::nth_element(reaches.begin(), middle, reaches.end());
-  return *middle - kFarEdge;
-}
-
 }  // namespace
 
 std::optional<PlateEdge> find_edge(const ScanCloud& cloud, const JointPlate& plate,
@@ -237,8 +211,9 @@ std::optional<PlateEdge> find_edge(const ScanCloud& cloud, const JointPlate& pla
   if (!cloud.organised()) return std::nullopt;
   const Eigen::Vector3d away = away_from_seam(plate, other);
   std::vector<Place> places;
-  const auto runs = points_by_stripe(cloud, plate, line, away, search.tolerance);
-  const double far = far_edge(cloud, runs, line, away);
+  const auto runs = plate_stripes(cloud, plate, line, away, search.tolerance);
+  // What lies farther from the seam is the plate's other edge, along the seam.
+  const double far = reach_of(cloud, runs, line, away) - kFarEdge;
   for (const auto& run : runs)
     if (const auto place = place_of(cloud, run, plate, other, line, side, search))
       if (place->away < far && (place->sharp || place->away > kNearSeam)) places.push_back(*place);

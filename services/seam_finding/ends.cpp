@@ -4,6 +4,8 @@
 #include <cmath>
 #include <optional>
 
+#include "services/seam_finding/plate_extent.hpp"
+
 namespace arcstart {
 namespace {
 
@@ -45,10 +47,23 @@ Bracket bracket_of(const Stations& stations, int plate, double end, double outwa
   return bracket;
 }
 
+// What is seen on the plate and past it.
+void narrow(Bracket& bracket, const PlateExtent& extent, double margin, double outward) {
+  const double inner = std::max(outward * bracket.inner, extent.on);
+  const double outer = std::min(outward * bracket.outer + margin, extent.past);
+  if (inner < outer) bracket.inner = outward * inner, bracket.outer = outward * outer;
+}
+
+// A lone stripe may end for another reason than the plate's edge.
+bool possible(const PlateEdge& edge, const PlateExtent& extent, double outward) {
+  const double place = outward * edge.along, allowed = kSameEdge * std::sqrt(edge.variance);
+  return place > extent.on - allowed && place < extent.past + allowed;
+}
+
 // Of two plates the one that ends the seam first, where the second is known by a bracket only. Two
 // plates are often set flush; else the one ends anywhere about the other's end.
-void limit_by_bracket(SeamEnd& end, const Bracket& bracket, double margin, double outward) {
-  const double inner = outward * bracket.inner, outer = outward * bracket.outer + margin;
+void limit_by_bracket(SeamEnd& end, const Bracket& bracket, double outward) {
+  const double inner = outward * bracket.inner, outer = outward * bracket.outer;
   const double edge = outward * end.along;
   if (edge <= inner || !(outer > inner)) return;
   const double high = std::min(edge, outer), per_mm = (1 - kFlush) / kOffsets;
@@ -60,6 +75,19 @@ void limit_by_bracket(SeamEnd& end, const Bracket& bracket, double margin, doubl
   end.variance = share * (within + std::pow(middle - mean, 2)) +
                  (1 - share) * (end.variance + std::pow(edge - mean, 2));
   end.along = outward * mean;
+}
+
+// Where no plate's edge is known. Nothing is changed where both plates run on.
+void between_brackets(SeamEnd& end, const std::array<Bracket, 2>& brackets, double outward) {
+  double inner = 1e9, outer = 1e9;
+  for (const Bracket& bracket : brackets) {
+    if (bracket.runs_on) continue;
+    inner = std::min(inner, outward * bracket.inner);
+    outer = std::min(outer, outward * bracket.outer);
+  }
+  if (!(outer > inner)) return;
+  end.along = outward * (inner + outer) / 2;
+  end.variance = (outer - inner) * (outer - inner) / 12;
 }
 
 // Of the stripe right beyond the seam's end that no longer shows a plate: whether the plate is seen
@@ -126,6 +154,14 @@ SeamEnd find_end(const ScanCloud& cloud, const std::array<JointPlate, 2>& plates
     edge_search.shortening_px = search.shortening_px;
     edges[j] = find_edge(cloud, plates[j], plates[1 - j], line, side, edge_search);
   }
+  for (int j = 0; j < 2; ++j) {
+    if ((edges[j] && edges[j]->stripes > 1) || brackets[j].runs_on) continue;
+    const PlateExtent extent =
+        plate_extent(cloud, plates[j], plates[1 - j], line, side, end.along, search);
+    if (edges[j] && !possible(*edges[j], extent, outward)) edges[j].reset();
+    const double slant = std::max(0.0, outward * stations.slant[j]);
+    if (!edges[j]) narrow(brackets[j], extent, kUnseen * stations.near[j] * slant, outward);
+  }
   // Of single stripes, the one that agrees with the other plate's edge.
   for (int j = 0; j < 2; ++j) {
     if (!edges[0] || !edges[1] || edges[j]->stripes > 1 || edges[1 - j]->stripes < 2) continue;
@@ -136,6 +172,7 @@ SeamEnd find_end(const ScanCloud& cloud, const std::array<JointPlate, 2>& plates
       edges[j] = flush;
   }
   if (!edges[0] && !edges[1]) {
+    between_brackets(end, brackets, outward);
     end.visibility =
         seen_beyond(cloud, stations, plates, line, end.along, outward, search.tolerance);
     return end;
@@ -155,10 +192,7 @@ SeamEnd find_end(const ScanCloud& cloud, const std::array<JointPlate, 2>& plates
   end.along = edge.along;
   end.variance = edge.variance;
   for (int j = 0; j < 2; ++j)
-    if (!edges[j] && !brackets[j].runs_on)
-      limit_by_bracket(end, brackets[j],
-                       kUnseen * stations.near[j] * std::max(0.0, outward * stations.slant[j]),
-                       outward);
+    if (!edges[j] && !brackets[j].runs_on) limit_by_bracket(end, brackets[j], outward);
   if (edge.occluded) end.visibility = EndVisibility::kHidden;
   return end;
 }

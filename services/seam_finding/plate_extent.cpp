@@ -1,0 +1,76 @@
+#include "services/seam_finding/plate_extent.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include "services/seam_finding/plate_stripes.hpp"
+
+namespace arcstart {
+namespace {
+
+constexpr double kSquareCut = 0.01;  // an edge's slope, mm along for each mm away: so much at most
+constexpr double kBeam = 0.5;    // of a point's noise across its surface what it is along the seam
+constexpr double kNearSeam = 3;  // where it may be the joint's other plate that is seen; mm
+constexpr double kFarEdge = 3;   // and where the plate's far edge is passed; mm
+constexpr int kLeastRun = 3;     // points in a row that chance does not put on a plate or behind it
+constexpr double kAround = 40;   // stripes so near the end tell of it; mm
+
+// The most of a value over runs of neighbours in one segment; of each the others bear it out.
+class MostOfRuns {
+ public:
+  explicit MostOfRuns(const ScanCloud& cloud) : cloud_(cloud) {}
+  void add(int point, double value) {
+    const bool joined = run_ > 0 && point == last_ + 1 &&
+                        cloud_.origins[point].stripe == cloud_.origins[last_].stripe &&
+                        cloud_.origins[point].segment == cloud_.origins[last_].segment;
+    run_ = joined ? run_ + 1 : 1;
+    of_run_ = joined ? std::max(of_run_, value) : value;
+    last_ = point;
+    if (run_ >= kLeastRun) most_ = std::max(most_, of_run_);
+  }
+  double most() const { return most_; }
+
+ private:
+  const ScanCloud& cloud_;
+  int run_ = 0, last_ = -1;
+  double of_run_ = 0, most_ = -std::numeric_limits<double>::infinity();
+};
+
+}  // namespace
+
+PlateExtent plate_extent(const ScanCloud& cloud, const JointPlate& plate, const JointPlate& other,
+                         const Line& line, SeamSide side, double near, const EndSearch& search) {
+  PlateExtent extent;
+  if (!cloud.organised()) return extent;
+  const double outward = side == SeamSide::kEnd ? 1 : -1;
+  const Eigen::Vector3d away = away_from_seam(plate, other);
+  const double slack = kBeam * search.noise;
+  const auto stripes = plate_stripes(cloud, plate, line, away, search.tolerance);
+  MostOfRuns on(cloud);
+  for (const auto& run : stripes)
+    for (const int i : run)
+      on.add(i, outward * line.along(cloud.points[i]) -
+                    kSquareCut * away.dot(cloud.points[i] - line.point) - slack);
+  extent.on = on.most();
+
+  const double far = reach_of(cloud, stripes, line, away) - kFarEdge;
+  MostOfRuns past(cloud);
+  for (const ScanStripe& stripe : cloud.stripes) {
+    const int last = stripe.first + stripe.count - 1;
+    if (stripe.count < kLeastRun ||
+        std::min(std::abs(line.along(cloud.points[stripe.first]) - near),
+                 std::abs(line.along(cloud.points[last]) - near)) > kAround)
+      continue;
+    for (int i = stripe.first; i <= last; ++i) {
+      const auto through = seen_through(cloud, plate.plane, i, search.tolerance);
+      if (!through) continue;
+      const double r = away.dot(*through - line.point);
+      const double place = outward * line.along(*through) + kSquareCut * r + slack;
+      if (r > kNearSeam && r < far && place > extent.on) past.add(i, -place);
+    }
+  }
+  extent.past = -past.most();
+  return extent;
+}
+
+}  // namespace arcstart

@@ -1,0 +1,25 @@
+// How far a plate reaches along a seam for certain, and where it is no more for certain, from what
+// is seen on it and past it.
+#pragma once
+
+#include <limits>
+
+#include "services/seam_finding/ends.hpp"
+
+namespace arcstart {
+
+// Counted outward: along the line toward the side that is looked at; mm.
+struct PlateExtent {
+  double on = -std::numeric_limits<double>::infinity();   // the plate is there
+  double past = std::numeric_limits<double>::infinity();  // something was seen through there
+};
+
+// Stripes cross a plate at a slant: one that lies on it shows how far it reaches at the stripe's
+// farthest place, not only where it crosses the seam. And a point that is seen behind the plate's
+// plane is seen past the plate: its line of sight meets the plane where no plate is. Both hold at
+// the seam but for how square the plate is cut. Looks at the stripes about `near`, along the line;
+// mm. Nothing is known in a cloud without stripes.
+PlateExtent plate_extent(const ScanCloud& cloud, const JointPlate& plate, const JointPlate& other,
+                         const Line& line, SeamSide side, double near, const EndSearch& search);
+
+}  // namespace arcstart

@@ -1,0 +1,74 @@
+#include "services/seam_finding/plate_stripes.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+namespace arcstart {
+namespace {
+
+constexpr double kGap = 4;           // between points on one piece of a plate, at most; mm
+constexpr int kLeastBehind = 2;      // points that chance does not put behind a plate
+constexpr double kLeastSight = 0.1;  // sine of the angle between a line of sight and a plate
+
+}  // namespace
+
+std::optional<Eigen::Vector3d> seen_through(const ScanCloud& cloud, const Plane& plane, int point,
+                                            double tolerance) {
+  const double depth = -plane.signed_distance(cloud.points[point]);
+  if (depth <= tolerance) return std::nullopt;
+  const Eigen::Vector3d sight = (cloud.points[point] - cloud.seen_from(point)).normalized();
+  const double toward = -plane.normal.dot(sight);
+  if (toward < kLeastSight) return std::nullopt;
+  return cloud.points[point] - sight * (depth / toward);
+}
+
+PlateStripes plate_stripes(const ScanCloud& cloud, const JointPlate& plate, const Line& line,
+                           const Eigen::Vector3d& away, double tolerance) {
+  const auto reach = [&](const Eigen::Vector3d& p) { return away.dot(p - line.point); };
+  PlateStripes stripes(cloud.stripes.size());
+  for (const int i : plate.points)
+    if (reach(cloud.points[i]) > tolerance &&
+        std::abs(plate.plane.signed_distance(cloud.points[i])) <= tolerance)
+      stripes[cloud.origins[i].stripe].push_back(i);
+
+  for (std::size_t k = 0; k < stripes.size(); ++k) {
+    std::vector<int>& run = stripes[k];
+    const auto parted = std::adjacent_find(run.begin(), run.end(), [&](int a, int b) {
+      return b > a + 1 && std::abs(reach(cloud.points[b]) - reach(cloud.points[a])) > kGap;
+    });
+    if (parted == run.end()) continue;
+    std::vector<double> reaches, behind;
+    for (const int i : run) reaches.push_back(reach(cloud.points[i]));
+    std::sort(reaches.begin(), reaches.end());
+    const ScanStripe& stripe = cloud.stripes[k];
+    for (int i = stripe.first; i < stripe.first + stripe.count; ++i)
+      if (const auto through = seen_through(cloud, plate.plane, i, tolerance))
+        behind.push_back(reach(*through));
+    for (std::size_t j = 1; j < reaches.size(); ++j) {
+      const double from = reaches[j - 1], to = reaches[j];
+      if (to - from <= kGap || std::count_if(behind.begin(), behind.end(), [&](double r) {
+                                 return r > from && r < to;
+                               }) < kLeastBehind)
+        continue;
+      std::erase_if(run, [&](int i) { return reach(cloud.points[i]) >= to; });
+      break;
+    }
+  }
+  return stripes;
+}
+
+double reach_of(const ScanCloud& cloud, const PlateStripes& stripes, const Line& line,
+                const Eigen::Vector3d& away) {
+  std::vector<double> reaches;
+  for (const auto& run : stripes) {
+    double reach = 0;
+    for (const int i : run) reach = std::max(reach, away.dot(cloud.points[i] - line.point));
+    if (reach > 0) reaches.push_back(reach);
+  }
+  if (reaches.empty()) return 0;
+  const auto middle = reaches.begin() + static_cast<std::ptrdiff_t>(reaches.size() / 2);
+  std::nth_element(reaches.begin(), middle, reaches.end());
+  return *middle;
+}
+
+}  // namespace arcstart
