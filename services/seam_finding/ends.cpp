@@ -159,7 +159,8 @@ SeamEnd find_end(const ScanCloud& cloud, const std::array<JointPlate, 2>& plates
     const PlateExtent extent =
         plate_extent(cloud, plates[j], plates[1 - j], line, side, end.along, search);
     if (edges[j] && !possible(*edges[j], extent, outward)) edges[j].reset();
-    const double slant = std::max(0.0, outward * stations.slant[j]);
+    // Where stripes cross the one plate's edge, they may leave this one unseen.
+    const double slant = edges[1 - j] ? std::max(0.0, outward * stations.slant[j]) : 0;
     if (!edges[j]) narrow(brackets[j], extent, kUnseen * stations.near[j] * slant, outward);
   }
   // Of single stripes, the one that agrees with the other plate's edge.

@@ -13,6 +13,7 @@ constexpr double kBeam = 0.5;    // of a point's noise across its surface what i
 constexpr double kNearSeam = 3;  // where it may be the joint's other plate that is seen; mm
 constexpr double kFarEdge = 3;   // and where the plate's far edge is passed; mm
 constexpr int kLeastRun = 3;     // points in a row that chance does not put on a plate or behind it
+constexpr double kStep = 1.5;    // along the seam between neighbours in a row; mm
 constexpr double kAround = 40;   // stripes so near the end tell of it; mm
 
 // The most of a value over runs of neighbours in one segment; of each the others bear it out.
@@ -22,10 +23,11 @@ class MostOfRuns {
   void add(int point, double value) {
     const bool joined = run_ > 0 && point == last_ + 1 &&
                         cloud_.origins[point].stripe == cloud_.origins[last_].stripe &&
-                        cloud_.origins[point].segment == cloud_.origins[last_].segment;
+                        cloud_.origins[point].segment == cloud_.origins[last_].segment &&
+                        std::abs(value - value_) < kStep;
     run_ = joined ? run_ + 1 : 1;
     of_run_ = joined ? std::max(of_run_, value) : value;
-    last_ = point;
+    last_ = point, value_ = value;
     if (run_ >= kLeastRun) most_ = std::max(most_, of_run_);
   }
   double most() const { return most_; }
@@ -33,7 +35,7 @@ class MostOfRuns {
  private:
   const ScanCloud& cloud_;
   int run_ = 0, last_ = -1;
-  double of_run_ = 0, most_ = -std::numeric_limits<double>::infinity();
+  double value_ = 0, of_run_ = 0, most_ = -std::numeric_limits<double>::infinity();
 };
 
 }  // namespace
@@ -46,14 +48,14 @@ PlateExtent plate_extent(const ScanCloud& cloud, const JointPlate& plate, const 
   const Eigen::Vector3d away = away_from_seam(plate, other);
   const double slack = kBeam * search.noise;
   const auto stripes = plate_stripes(cloud, plate, line, away, search.tolerance);
+  const double reach = reach_of(cloud, stripes, line, away), far = reach - kFarEdge;
   MostOfRuns on(cloud);
   for (const auto& run : stripes)
     for (const int i : run)
-      on.add(i, outward * line.along(cloud.points[i]) -
-                    kSquareCut * away.dot(cloud.points[i] - line.point) - slack);
+      if (const double r = away.dot(cloud.points[i] - line.point); r <= reach)
+        on.add(i, outward * line.along(cloud.points[i]) - kSquareCut * r - slack);
   extent.on = on.most();
 
-  const double far = reach_of(cloud, stripes, line, away) - kFarEdge;
   MostOfRuns past(cloud);
   for (const ScanStripe& stripe : cloud.stripes) {
     const int last = stripe.first + stripe.count - 1;
