@@ -60,6 +60,18 @@ std::vector<Face> two_largest_faces(const ScanCloud& scan, const std::vector<int
   return faces;
 }
 
+// Of the thinned points, told by their own places.
+Division division_of(const ThinnedCloud& thinned, const Division& whole) {
+  Division division;
+  auto left = whole.left.begin();
+  for (int i = 0; i < thinned.cloud.size(); ++i) {
+    while (left != whole.left.end() && *left < thinned.places[i]) ++left;
+    const bool is_left = left != whole.left.end() && *left == thinned.places[i];
+    (is_left ? division.left : division.background).push_back(i);
+  }
+  return division;
+}
+
 SeamResult& refuse(SeamResult& result, std::string reason) {
   result.verdict = SeamResult::Verdict::kRefused;
   result.reason = std::move(reason);
@@ -82,36 +94,43 @@ SeamResult find_seam(const ScanCloud& scan, const Background& background,
                      const SeamFindingSettings& settings, std::uint64_t seed) {
   Division division;
   divide(scan, background, division);
-  return find_seam(scan, std::move(division), settings, seed);
+  ThinnedCloud thinned;
+  thin(scan, thinned);
+  return find_seam(scan, std::move(division), thinned, settings, seed);
 }
 
-SeamResult find_seam(const ScanCloud& scan, Division division, const SeamFindingSettings& settings,
-                     std::uint64_t seed) {
+SeamResult find_seam(const ScanCloud& scan, Division division, const ThinnedCloud& fewer,
+                     const SeamFindingSettings& settings, std::uint64_t seed) {
   SeamResult result;
-  const Sampling sampling = measure_sampling(scan);
+  // The paper's way counts all points.
+  const bool is_thinned = settings.plane_rule == "ranked" && fewer.is_less_than(scan);
+  const ThinnedCloud none, &thinned = is_thinned ? fewer : none;
+  const ScanCloud& some = is_thinned ? thinned.cloud : scan;
+  const Sampling sampling = measure_sampling(some);
   if (!(sampling.spacing > 1e-3))
     return refuse(result, "no cloud: the points, or the tool's positions, coincide");
   if (scan.organised() && !search_direction(scan))
     return refuse(result, "the tool did not move in the scan");
-  const Scales scales = scales_of(scan, sampling, settings.plane_tolerance_mm);
-  result.background = std::move(division.background);
-  const std::vector<int>& left = division.left;
+  const Scales scales = scales_of(some, sampling, settings.plane_tolerance_mm);
+  const Division thinned_division = is_thinned ? division_of(thinned, division) : Division();
+  const Division& searched = is_thinned ? thinned_division : division;
 
   const PlaneSearch plane = plane_search(scales, settings);
   auto faces = settings.plane_rule == "largest"
-                   ? two_largest_faces(scan, left, plane, settings, seed)
-                   : find_faces(scan, left, plane, seed);
+                   ? two_largest_faces(some, searched.left, plane, settings, seed)
+                   : find_faces(some, searched.left, plane, seed);
   if (faces.empty())
-    return refuse(
-        result,
-        fmt::format("no workpiece: no plane among the {} of {} points that are not background",
-                    left.size(), scan.size()));
+    refuse(result,
+           fmt::format("no workpiece: no plane among the {} of {} points that are not background",
+                       division.left.size(), scan.size()));
   std::erase_if(faces, [&](const Face& face) {
-    return continues_background(scan, result.background, face, scales);
+    return continues_background(some, searched.background, face, scales);
   });
-  if (faces.empty())
-    return refuse(result, "no workpiece: what is left only continues the background");
-  choose_seam(result, scan, left, std::move(faces), scales, settings);
+  if (!faces.empty())
+    choose_seam(result, scan, thinned, searched.left, std::move(faces), scales, settings);
+  else if (result.reason.empty())
+    refuse(result, "no workpiece: what is left only continues the background");
+  result.background = std::move(division.background);
   return result;
 }
 

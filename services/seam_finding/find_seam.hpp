@@ -10,6 +10,7 @@
 #include "services/seam_finding/background.hpp"
 #include "services/seam_finding/seam_finding_settings.hpp"
 #include "services/seam_finding/seam_survey.hpp"
+#include "services/seam_finding/thinned_cloud.hpp"
 #include "services/seam_finding/torch.hpp"
 
 namespace arcstart {
@@ -60,9 +61,9 @@ void divide(const ScanCloud& scan, const Background& background, Division& divis
 // when in doubt. The result depends on nothing but the arguments; seed: the scan's id.
 SeamResult find_seam(const ScanCloud& scan, const Background& background,
                      const SeamFindingSettings& settings, std::uint64_t seed);
-// The same of a scan that is divided.
-SeamResult find_seam(const ScanCloud& scan, Division division, const SeamFindingSettings& settings,
-                     std::uint64_t seed);
+// The same of a scan that is divided and thinned.
+SeamResult find_seam(const ScanCloud& scan, Division division, const ThinnedCloud& thinned,
+                     const SeamFindingSettings& settings, std::uint64_t seed);
 
 // Takes nothing for background.
 class NoBackground : public Background {

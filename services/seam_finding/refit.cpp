@@ -13,7 +13,8 @@ namespace {
 constexpr int kPasses = 2;
 constexpr int kLeastPoints = 20;
 constexpr std::size_t kSoughtAgain =
-    4096;  // of more points the outliers are sought in one pass alone
+    4096;                               // of more points the outliers are sought in one pass alone
+constexpr std::size_t kEnough = 16384;  // points of a plate, evenly taken
 // The stripe's centre is drawn aside so near the other plate; mm.
 constexpr double kBendWidth = 1.2;
 constexpr double kOverhang = 3;  // beyond the seam's ends; mm
@@ -75,41 +76,62 @@ std::vector<int> grown_along_stripes(const ScanCloud& cloud, const JointPlate& p
   return grown;
 }
 
+// The plate's plane by the points chosen.
+Plane fitted(const ScanCloud& cloud, const Joint& joint, int plate, const std::vector<int>& chosen,
+             double noise) {
+  const Plane& plane = joint.plates[plate].plane;
+  if (static_cast<int>(chosen.size()) < kLeastPoints) return plane;  // the face's own is better
+  std::vector<Eigen::Vector3d> points;
+  const std::size_t every = 1 + chosen.size() / kEnough;
+  points.reserve(chosen.size() / every + 1);
+  for (std::size_t i = 0; i < chosen.size(); i += every) points.push_back(cloud.points[chosen[i]]);
+  return robust_plane(points, joint.line, plane, noise);
+}
+
+// False where the planes do not cross.
+bool set_planes(const ScanCloud& cloud, Joint& joint, const std::array<Plane, 2>& planes,
+                const Refit& refit, const CourseSearch& search) {
+  const auto line =
+      intersect(planes[0], planes[1], joint.line.at((joint.course.begin + joint.course.end) / 2));
+  if (!line) return false;
+  joint.plates[0].plane = planes[0];
+  joint.plates[1].plane = planes[1];
+  const bool along = line->direction.dot(joint.line.direction) > 0;
+  joint.line = {line->point, along ? line->direction : Eigen::Vector3d(-line->direction)};
+  joint.angle = open_angle(joint);
+  if (cloud.organised())
+    for (int j = 0; j < 2; ++j)
+      joint.plates[j].points =
+          grown_along_stripes(cloud, joint.plates[j], joint.plates[1 - j], refit.tolerance);
+  joint.course = find_course(cloud, joint.plates, joint.line, search);
+  return joint.course.stripes > 0;
+}
+
 }  // namespace
 
 void refit_joint(const ScanCloud& cloud, Joint& joint, const Refit& refit,
                  const CourseSearch& search) {
   std::array<std::vector<int>, 2> outliers;
   for (int pass = 0; pass < kPasses; ++pass) {
-    std::array<Plane, 2> planes = {joint.plates[0].plane, joint.plates[1].plane};
+    std::array<Plane, 2> planes;
     for (int plate = 0; plate < 2; ++plate) {
-      auto chosen = beside(cloud, joint, plate, refit);
+      const auto chosen = beside(cloud, joint, plate, refit);
       if (refit.neighbours > 0 && (pass == 0 || chosen.size() <= kSoughtAgain))
         outliers[plate] =
             difference(chosen, without_outliers(cloud, chosen, refit.neighbours, refit.deviations,
                                                 outlier_spacing(cloud, chosen, search.spacing)));
-      chosen = difference(chosen, outliers[plate]);
-      if (static_cast<int>(chosen.size()) < kLeastPoints)
-        continue;  // the face's own plane is better
-      std::vector<Eigen::Vector3d> points;
-      for (const int i : chosen) points.push_back(cloud.points[i]);
-      planes[plate] = robust_plane(points, joint.line, planes[plate], refit.noise);
+      planes[plate] = fitted(cloud, joint, plate, difference(chosen, outliers[plate]), refit.noise);
     }
-    const auto line =
-        intersect(planes[0], planes[1], joint.line.at((joint.course.begin + joint.course.end) / 2));
-    if (!line) return;
-    joint.plates[0].plane = planes[0];
-    joint.plates[1].plane = planes[1];
-    const bool along = line->direction.dot(joint.line.direction) > 0;
-    joint.line = {line->point, along ? line->direction : Eigen::Vector3d(-line->direction)};
-    joint.angle = open_angle(joint);
-    if (cloud.organised())
-      for (int j = 0; j < 2; ++j)
-        joint.plates[j].points =
-            grown_along_stripes(cloud, joint.plates[j], joint.plates[1 - j], refit.tolerance);
-    joint.course = find_course(cloud, joint.plates, joint.line, search);
-    if (joint.course.stripes == 0) return;
+    if (!set_planes(cloud, joint, planes, refit, search)) return;
   }
+}
+
+void refit_in_whole(const ScanCloud& cloud, Joint& joint, const Refit& refit,
+                    const CourseSearch& search) {
+  std::array<Plane, 2> planes;
+  for (int plate = 0; plate < 2; ++plate)
+    planes[plate] = fitted(cloud, joint, plate, beside(cloud, joint, plate, refit), refit.noise);
+  set_planes(cloud, joint, planes, refit, search);
 }
 
 }  // namespace arcstart

@@ -19,4 +19,9 @@ struct Refit {
 void refit_joint(const ScanCloud& cloud, Joint& joint, const Refit& refit,
                  const CourseSearch& search);
 
+// Once more, by all points of a scan of which some gave the joint. Without removal of outliers: the
+// planes are near enough by then that those count for nothing.
+void refit_in_whole(const ScanCloud& cloud, Joint& joint, const Refit& refit,
+                    const CourseSearch& search);
+
 }  // namespace arcstart

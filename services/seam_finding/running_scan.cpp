@@ -27,6 +27,7 @@ void RunningScan::take(const profile_t& profile, const StoredBackground* backgro
   if (builder_->cloud().size() + profile.count > kMostPoints) return;
   if (background_id_ == 0 && division_.size() == 0) background_id_ = id_of(background);
   builder_->add(profile);
+  thin(builder_->cloud(), thinned_);
   seqs_.push_back(profile.seq);
   if (background && background->scan_id() == background_id_)
     divide(builder_->cloud(), background->model(), division_);
@@ -46,7 +47,8 @@ PreparedScan RunningScan::finish(const CollectedScan& scan, const StoredBackgrou
   was_ready_ = is_ready(scan);
   if (!was_ready_) return prepare(scan, background);
   builder_->miss_until(scan.state.last_seq + 1);
-  PreparedScan prepared{builder_->take_cloud(), std::move(division_)};
+  thin(builder_->cloud(), thinned_);
+  PreparedScan prepared{builder_->take_cloud(), std::move(division_), std::move(thinned_)};
   builder_.reset();
   if (!background || background->scan_id() != background_id_) prepared.division = {};
   if (background) divide(prepared.cloud, background->model(), prepared.division);

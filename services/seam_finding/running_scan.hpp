@@ -32,6 +32,7 @@ class RunningScan {
   std::int64_t background_id_ = 0;  // 0 while there was none
   std::optional<CloudBuilder> builder_;
   Division division_;
+  ThinnedCloud thinned_;
   std::int64_t first_seq_ = 0;
   std::vector<std::int64_t> seqs_;  // taken
   bool was_ready_ = false;

@@ -139,7 +139,8 @@ seam_t answer_workpiece(const CollectedScan& scan, const StoredBackground* backg
 }
 
 PreparedScan prepare(const CollectedScan& scan, const StoredBackground* background) {
-  PreparedScan prepared{cloud_of(scan), {}};
+  PreparedScan prepared{cloud_of(scan), {}, {}};
+  thin(prepared.cloud, prepared.thinned);
   if (background) divide(prepared.cloud, background->model(), prepared.division);
   return prepared;
 }
@@ -173,7 +174,7 @@ seam_t answer_workpiece(const CollectedScan& scan, PreparedScan prepared,
   seam.background_scan_id = background->scan_id();
   seam.remark = balance.losses();
   if (scan.state.end_reason == "camera lost") seam.remark += "the camera was lost in the scan; ";
-  fill_in(seam, find_seam(cloud, std::move(prepared.division), settings,
+  fill_in(seam, find_seam(cloud, std::move(prepared.division), prepared.thinned, settings,
                           static_cast<std::uint64_t>(scan.state.scan_id)));
   fill_in_systematic(seam, scan, calibration);
   return seam;

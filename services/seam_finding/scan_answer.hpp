@@ -51,10 +51,12 @@ class StoredBackground {
 // for the surface is known from those beside them: no more than one in twenty, no two in a row.
 std::string background_error(const CollectedScan& scan);
 
-// A workpiece scan before the seam is sought: its cloud, divided where there is a background.
+// A workpiece scan before the seam is sought: its cloud, thinned, and divided where there is a
+// background.
 struct PreparedScan {
   ScanCloud cloud;
   Division division;
+  ThinnedCloud thinned;
 };
 PreparedScan prepare(const CollectedScan& scan, const StoredBackground* background);
 

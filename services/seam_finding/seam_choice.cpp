@@ -81,10 +81,14 @@ void join_flat_ones(std::vector<Joint>& joints, std::vector<Joint> flat) {
   sort_by_score(joints);
 }
 
-std::vector<Joint> joints_between(const ScanCloud& scan, const std::vector<int>& left,
-                                  std::vector<Face> faces, const Scales& scales,
-                                  const SeamFindingSettings& settings) {
-  const auto certain = turn_to_sensor(scan, faces);
+// Joints between faces that lie in one plane, or in parallel ones, hang on where stripes pass from
+// the one to the other: they need all points.
+std::vector<Joint> joints_between(const ScanCloud& scan, const ThinnedCloud& thinned,
+                                  const std::vector<int>& left, std::vector<Face> faces,
+                                  const Scales& scales, const SeamFindingSettings& settings) {
+  const bool is_thinned = thinned.is_less_than(scan);
+  const ScanCloud& some = is_thinned ? thinned.cloud : scan;
+  const auto certain = turn_to_sensor(some, faces);
   std::vector<Joint> joints;
   FlatSearch flat = flat_search(settings);
   for (const JointType type : wanted_types(settings.joint_type)) {
@@ -93,12 +97,20 @@ std::vector<Joint> joints_between(const ScanCloud& scan, const std::vector<int>&
     flat.v |= type == JointType::kV;
     if (is_flat(type)) continue;
     auto found =
-        rank_joints(scan, left, faces, certain, joint_search(scan, scales, settings, type));
+        rank_joints(some, left, faces, certain, joint_search(some, scales, settings, type));
     std::move(found.begin(), found.end(), std::back_inserter(joints));
   }
-  if (flat.lap || flat.butt || flat.v)
-    join_flat_ones(joints, find_flat_joints(scan, faces, flat, scales));
+  if (!flat.lap && !flat.butt && !flat.v) return joints;
+  if (is_thinned)
+    for (Face& face : faces)
+      face.points = in_whole(scan, thinned, face.points, face.plane, scales.tolerance);
+  join_flat_ones(joints, find_flat_joints(scan, faces, flat, scales));
   return joints;
+}
+
+Refit refit_of(const Scales& scales, const SeamFindingSettings& settings) {
+  return {settings.refit_distance_mm, settings.outlier_neighbours, settings.outlier_deviations,
+          scales.noise, scales.tolerance};
 }
 
 // One entry a seam, best first; those that may be one are measured again beside it.
@@ -112,14 +124,19 @@ std::vector<Joint> distinct_seams(const ScanCloud& scan, std::vector<Joint> join
                     [&](const Joint& seam) { return same_seam(seam, candidate, scales.contact); }))
       continue;
     if (candidate.flaw.empty() && !is_flat(candidate.type))
-      refit_joint(scan, candidate,
-                  {settings.refit_distance_mm, settings.outlier_neighbours,
-                   settings.outlier_deviations, scales.noise, scales.tolerance},
-                  course_search(scales));
+      refit_joint(scan, candidate, refit_of(scales, settings), course_search(scales));
     seams.push_back(std::move(candidate));
     if (static_cast<int>(seams.size()) == kAlternatives) break;
   }
   return seams;
+}
+
+// A seam found among the thinned points, by all points.
+void measure_in_whole(const ScanCloud& scan, const ThinnedCloud& thinned, Joint& joint,
+                      const Scales& scales, const SeamFindingSettings& settings) {
+  for (JointPlate& plate : joint.plates)
+    plate.points = in_whole(scan, thinned, plate.points, plate.plane, scales.tolerance);
+  refit_in_whole(scan, joint, refit_of(scales, settings), course_search(scales));
 }
 
 // What speaks against the best one, empty where nothing does.
@@ -148,11 +165,12 @@ void refuse(SeamResult& result, std::string reason) {
 
 }  // namespace
 
-void choose_seam(SeamResult& result, const ScanCloud& scan, const std::vector<int>& left,
-                 std::vector<Face> faces, const Scales& scales,
+void choose_seam(SeamResult& result, const ScanCloud& scan, const ThinnedCloud& thinned,
+                 const std::vector<int>& left, std::vector<Face> faces, const Scales& scales,
                  const SeamFindingSettings& settings) {
+  const bool is_thinned = thinned.is_less_than(scan);
   const std::size_t planes = faces.size();
-  auto joints = joints_between(scan, left, std::move(faces), scales, settings);
+  auto joints = joints_between(scan, thinned, left, std::move(faces), scales, settings);
   if (joints.empty()) {
     refuse(result, planes == 1 ? std::string("one plane only: a joint needs two")
                                : fmt::format("no joint: of {} planes no two meet under the angle "
@@ -160,8 +178,11 @@ void choose_seam(SeamResult& result, const ScanCloud& scan, const std::vector<in
                                              planes));
     return;
   }
-  const std::vector<Joint> seams = distinct_seams(scan, std::move(joints), scales, settings);
-  const Joint& best = seams.front();
+  std::vector<Joint> seams =
+      distinct_seams(is_thinned ? thinned.cloud : scan, std::move(joints), scales, settings);
+  Joint& best = seams.front();
+  if (is_thinned && best.flaw.empty() && !is_flat(best.type))
+    measure_in_whole(scan, thinned, best, scales, settings);
   int rivals = 0;
   for (std::size_t i = 1; i < seams.size(); ++i) {
     const bool rival = best.flaw.empty() && seams[i].flaw.empty() &&

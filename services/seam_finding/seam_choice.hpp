@@ -10,10 +10,10 @@ namespace arcstart {
 
 // The joints of the wanted types between the faces, best first; the best is measured again beside
 // its seam and answered, unless something speaks against it or another comes too near. Fills in the
-// verdict with its reason, the alternatives and, where found, the seam. `left`: the points that are
-// not background.
-void choose_seam(SeamResult& result, const ScanCloud& scan, const std::vector<int>& left,
-                 std::vector<Face> faces, const Scales& scales,
+// verdict with its reason, the alternatives and, where found, the seam. Faces, and `left`, the
+// points that are not background, are of the thinned scan where that is less than the whole.
+void choose_seam(SeamResult& result, const ScanCloud& scan, const ThinnedCloud& thinned,
+                 const std::vector<int>& left, std::vector<Face> faces, const Scales& scales,
                  const SeamFindingSettings& settings);
 
 }  // namespace arcstart

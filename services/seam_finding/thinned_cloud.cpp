@@ -1,0 +1,59 @@
+#include "services/seam_finding/thinned_cloud.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+namespace arcstart {
+namespace {
+
+constexpr double kStep = 1.5;  // mm
+
+bool same_segment(const ScanCloud& scan, int a, int b) {
+  return scan.origins[a].segment == scan.origins[b].segment &&
+         scan.origins[a].stripe == scan.origins[b].stripe;
+}
+
+}  // namespace
+
+void thin(const ScanCloud& scan, ThinnedCloud& thinned) {
+  ScanCloud& few = thinned.cloud;
+  for (std::size_t k = few.stripes.size(); k < scan.stripes.size(); ++k) {
+    const ScanStripe& stripe = scan.stripes[k];
+    const int end = stripe.first + stripe.count;
+    for (int i = stripe.first; i < end; ++i) {
+      const bool first = i == stripe.first || !same_segment(scan, i - 1, i);
+      const bool last = i + 1 == end || !same_segment(scan, i, i + 1);
+      if (!first && !last && !scan.origins[i].segment_end &&
+          (scan.points[i] - few.points.back()).squaredNorm() < kStep * kStep)
+        continue;
+      few.points.push_back(scan.points[i]);
+      few.origins.push_back(scan.origins[i]);
+      thinned.places.push_back(i);
+    }
+    end_stripe(few, stripe.seen, stripe.camera_centre, stripe.tool_position);
+  }
+}
+
+std::vector<int> in_whole(const ScanCloud& scan, const ThinnedCloud& thinned,
+                          const std::vector<int>& points, const Plane& plane, double tolerance_mm) {
+  std::vector<int> whole;
+  int taken = -1;  // the last one that was looked at
+  for (const int point : points) {
+    const int own = thinned.places[point];
+    const auto neighbour = [&](int step) {
+      const int next = point + step;
+      return next >= 0 && next < thinned.cloud.size() && same_segment(thinned.cloud, point, next)
+                 ? thinned.places[next]
+                 : own;
+    };
+    const int from = neighbour(-1), to = neighbour(+1);
+    for (int i = std::max(taken + 1, std::min(from + 1, own)); i < std::max(to, own + 1); ++i) {
+      taken = i;
+      if (i == own || std::abs(plane.signed_distance(scan.points[i])) <= tolerance_mm)
+        whole.push_back(i);
+    }
+  }
+  return whole;
+}
+
+}  // namespace arcstart
