@@ -61,7 +61,7 @@ void print(const ReplayResult& result, bool as_json) {
     std::cerr << "replay: a recording of the background alone, no workpiece scan in it\n";
 }
 
-int run(Options& options) try {
+int run(Options& options) {
   if (options.print_channels) {
     std::cout << source_channels(options.paths, options.replay) << "\n";
     return 0;
