@@ -3,11 +3,13 @@
 #include <Eigen/LU>
 #include <cmath>
 #include <map>
+#include <vector>
 
 namespace arcstart {
 namespace {
 
 constexpr double kFloor = 0.005;  // of a plane's height: what all its points have in common; mm
+constexpr std::size_t kEnough = 4096;  // points of a plate, evenly taken, tell how they scatter
 constexpr int kLeastStripes = 3;
 constexpr double kOutlier = 3;  // standard deviations
 
@@ -41,22 +43,25 @@ PlaneAccuracy plane_accuracy(const ScanCloud& cloud, const JointPlate& plate,
                              const JointPlate& other, const Line& line, double distance_mm,
                              double spacing_mm) {
   const Eigen::Vector3d away = away_from_seam(plate, other);
+  const std::size_t every = 1 + plate.points.size() / kEnough;
+  std::vector<int> beside;
   Spread all;
-  for (const int i : plate.points)
-    if (line.distance(cloud.points[i]) <= distance_mm)
-      all.add(plate.plane.signed_distance(cloud.points[i]));
+  for (std::size_t k = 0; k < plate.points.size(); k += every) {
+    const int i = plate.points[k];
+    if (line.distance(cloud.points[i]) > distance_mm) continue;
+    beside.push_back(i);
+    all.add(plate.plane.signed_distance(cloud.points[i]));
+  }
   PlaneAccuracy accuracy;
   if (all.n < 3) return accuracy;
   const double limit = kOutlier * std::sqrt(all.squares / all.n);
 
   Spread off, r;
   std::map<int, Sums> stripes;
-  for (const int i : plate.points) {
+  for (const int i : beside) {
     const Eigen::Vector3d& point = cloud.points[i];
     const double distance = plate.plane.signed_distance(point);
-    if (line.distance(point) > distance_mm || cloud.origins[i].segment_end ||
-        std::abs(distance) > limit)
-      continue;
+    if (cloud.origins[i].segment_end || std::abs(distance) > limit) continue;
     const double t = line.along(point);
     off.add(distance);
     r.add(away.dot(point - line.point));
@@ -70,7 +75,7 @@ PlaneAccuracy plane_accuracy(const ScanCloud& cloud, const JointPlate& plate,
     means.add(sums.off / sums.n), places.add(sums.t / sums.n);
   if (means.n < kLeastStripes || !(places.variance() > 0) || !(r.variance() > 0)) return accuracy;
   const double per_stripe = means.variance() / (means.n - 2);
-  const double per_point = off.squares / off.n / off.n;
+  const double per_point = off.squares / off.n / off.n / static_cast<double>(every);
   accuracy.middle = places.mean();
   accuracy.slope_along = per_stripe / places.variance();
   accuracy.slope_away = per_point / r.variance();

@@ -182,17 +182,14 @@ void NeighbourGrid::nearest_distances(int point, int k, std::span<const int> aro
   for (const int cell : around) {
     const auto inside = points_in(cell);
     const std::size_t step = 1 + inside.size() / kCrowd;
-    for (std::size_t i = 0; i < inside.size(); i += step) {
-      const double squared = (points_[inside[i]] - centre).squaredNorm();
-      if (inside[i] == point || (distances.size() == most && !(squared < distances.back())))
-        continue;
-      if (distances.size() < most) distances.push_back(squared);
-      std::size_t place = distances.size() - 1;
-      for (; place > 0 && distances[place - 1] > squared; --place)
-        distances[place] = distances[place - 1];
-      distances[place] = squared;
-    }
+    for (std::size_t i = 0; i < inside.size(); i += step)
+      if (inside[i] != point) distances.push_back((points_[inside[i]] - centre).squaredNorm());
   }
+  if (distances.size() > most) {
+    std::nth_element(distances.begin(), distances.begin() + k, distances.end());
+    distances.resize(most);
+  }
+  std::sort(distances.begin(), distances.end());
   for (double& distance : distances) distance = std::sqrt(distance);
 }
 

@@ -47,12 +47,14 @@ std::vector<int> without_outliers(const ScanCloud& cloud, const std::vector<int>
     grid.nearest_distances(static_cast<int>(i), neighbours, adjacency.of(cells[i]), distances);
   };
   const std::size_t step = many ? points.size() / kAsked : 1;
+  std::vector<double> means;  // where all are asked
   double sum = 0, squares = 0;
   int counted = 0;
   for (std::size_t i = 0; i < points.size(); i += step) {
     ask(i);
+    const double mean = distances.empty() ? INFINITY : mean_of(distances);
+    if (!many) means.push_back(mean);
     if (distances.empty()) continue;
-    const double mean = mean_of(distances);
     sum += mean, squares += mean * mean, ++counted;
   }
   if (counted < 2) return points;
@@ -62,9 +64,10 @@ std::vector<int> without_outliers(const ScanCloud& cloud, const std::vector<int>
   std::vector<int> kept;
   kept.reserve(points.size());
   for (std::size_t i = 0; i < points.size(); ++i) {
-    bool keep =
-        bound_of(positions, i, static_cast<std::size_t>(neighbours), grid.cell_size()) <= limit;
-    if (!keep) {
+    bool keep = many ? bound_of(positions, i, static_cast<std::size_t>(neighbours),
+                                grid.cell_size()) <= limit
+                     : means[i] <= limit;
+    if (many && !keep) {
       ask(i);
       keep = !distances.empty() && mean_of(distances) <= limit;
     }

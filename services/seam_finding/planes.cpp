@@ -3,12 +3,14 @@
 #include <algorithm>
 #include <cmath>
 #include <optional>
+#include <queue>
 #include <random>
 
 #include "services/seam_finding/components.hpp"
 #include "services/seam_finding/neighbour_grid.hpp"
 #include "services/seam_finding/plane_fit.hpp"
 #include "services/seam_finding/plane_points.hpp"
+#include "services/seam_finding/stripe_planes.hpp"
 
 namespace arcstart {
 namespace {
@@ -169,6 +171,69 @@ Face grow(Sought& sought, Plane plane, const PlaneSearch& search) {
   return face;
 }
 
+// Planes that are known beforehand, judged by an even sample of the points sought: the one with the
+// largest connected piece first. Faces taken away only ever lessen what a plane is worth, so that
+// most need not be judged again.
+class SuggestedPlanes {
+ public:
+  SuggestedPlanes(std::vector<Plane> planes, const Sought& sought, const PlaneSearch& search)
+      : search_(search),
+        planes_(std::move(planes)),
+        step_(std::max<std::size_t>(1, (sought.points.size() + kJury - 1) / kJury)),
+        sample_(every(step_, 0, sought.points)),
+        left_(sample_),
+        pieces_(sample_, search.connection * std::sqrt(static_cast<double>(step_))) {
+    least_ = std::max(2, search.least_points / static_cast<int>(step_));
+    for (std::size_t i = 0; i < planes_.size(); ++i)
+      offer(left_.count_near(planes_[i], search.tolerance, 0, left_.size()), i);
+  }
+
+  // Nothing where no one is worth a face any more.
+  std::optional<Plane> best() {
+    while (!worths_.empty()) {
+      const auto [bound, place] = worths_.top();
+      worths_.pop();
+      left_.find_near(planes_[static_cast<std::size_t>(-place)], search_.tolerance, on_it_);
+      const int worth = static_cast<int>(on_it_.size()) < least_ ? 0 : pieces_.largest_size(on_it_);
+      if (worth >= least_ && (worths_.empty() || worth >= worths_.top().first))
+        return planes_[static_cast<std::size_t>(-place)];
+      offer(worth, static_cast<std::size_t>(-place));
+    }
+    return std::nullopt;
+  }
+  // The places of a face's points among those sought.
+  void remove(const std::vector<int>& places) {
+    std::vector<int> sampled;
+    for (const int i : places)
+      if (i % static_cast<int>(step_) == 0) sampled.push_back(i / static_cast<int>(step_));
+    left_.remove(sampled);
+  }
+
+ private:
+  void offer(int worth, std::size_t plane) {
+    if (worth >= least_) worths_.emplace(worth, -static_cast<int>(plane));
+  }
+
+  const PlaneSearch& search_;
+  std::vector<Plane> planes_;
+  std::size_t step_;
+  std::vector<Eigen::Vector3d> sample_;
+  PlanePoints left_;
+  Pieces pieces_;
+  int least_ = 0;
+  std::priority_queue<std::pair<int, int>> worths_;  // bounds from above, and the first of equals
+  std::vector<int> on_it_;
+};
+
+// By three points drawn from those that are in no face yet.
+std::optional<Plane> drawn_plane(const Sought& sought, const PlaneSearch& search, Dice& dice) {
+  std::vector<Eigen::Vector3d> inside;
+  for (const int i : sought.left.places())
+    if (!sought.segment_ends[i]) inside.push_back(sought.points[i]);
+  if (static_cast<int>(inside.size()) < search.least_points) return std::nullopt;
+  return best_hypothesis(inside, search, dice);
+}
+
 // Half of the points of a face have four neighbours nearer than this: on a grid two on each of its
 // two lines.
 double spacing_of(const ScanCloud& cloud, const Face& face, double connection) {
@@ -200,19 +265,21 @@ std::vector<Face> find_faces(const ScanCloud& cloud, std::vector<int> indices,
   PlanePoints side_by_side(points);
   Sought sought{std::move(points), std::move(segment_ends), std::move(pieces),
                 std::move(side_by_side)};
+  SuggestedPlanes suggested(planes_of_stripes(cloud, indices, search), sought, search);
   std::vector<Face> faces;
-  std::vector<Eigen::Vector3d> inside;
   Dice dice(seed);
   while (static_cast<int>(faces.size()) < search.most_faces) {
-    inside.clear();
-    for (const int i : sought.left.places())
-      if (!sought.segment_ends[i]) inside.push_back(sought.points[i]);
-    if (static_cast<int>(inside.size()) < search.least_points) break;
-    const auto hypothesis = best_hypothesis(inside, search, dice);
-    if (!hypothesis) break;
-    Face face = grow(sought, *hypothesis, search);
-    if (static_cast<int>(face.points.size()) < search.least_points) break;
+    auto plane = suggested.best();
+    const bool drawn = !plane;
+    if (drawn) plane = drawn_plane(sought, search, dice);
+    if (!plane) break;
+    Face face = grow(sought, *plane, search);
+    if (static_cast<int>(face.points.size()) < search.least_points) {
+      if (drawn) break;
+      continue;
+    }
     sought.left.remove(face.points);
+    suggested.remove(face.points);
     for (int& i : face.points) i = indices[i];
     face.spacing = spacing_of(cloud, face, search.connection);
     faces.push_back(std::move(face));

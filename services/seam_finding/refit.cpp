@@ -10,11 +10,10 @@
 namespace arcstart {
 namespace {
 
-constexpr int kPasses = 2;
 constexpr int kLeastPoints = 20;
 constexpr std::size_t kSoughtAgain =
-    4096;                               // of more points the outliers are sought in one pass alone
-constexpr std::size_t kEnough = 16384;  // points of a plate, evenly taken
+    4096;                              // of more points the outliers are sought in one pass alone
+constexpr std::size_t kEnough = 4096;  // points of a plate, evenly taken
 // The stripe's centre is drawn aside so near the other plate; mm.
 constexpr double kBendWidth = 1.2;
 constexpr double kOverhang = 3;  // beyond the seam's ends; mm
@@ -112,7 +111,7 @@ bool set_planes(const ScanCloud& cloud, Joint& joint, const std::array<Plane, 2>
 void refit_joint(const ScanCloud& cloud, Joint& joint, const Refit& refit,
                  const CourseSearch& search) {
   std::array<std::vector<int>, 2> outliers;
-  for (int pass = 0; pass < kPasses; ++pass) {
+  for (int pass = 0; pass < refit.passes; ++pass) {
     std::array<Plane, 2> planes;
     for (int plate = 0; plate < 2; ++plate) {
       const auto chosen = beside(cloud, joint, plate, refit);
@@ -124,14 +123,6 @@ void refit_joint(const ScanCloud& cloud, Joint& joint, const Refit& refit,
     }
     if (!set_planes(cloud, joint, planes, refit, search)) return;
   }
-}
-
-void refit_in_whole(const ScanCloud& cloud, Joint& joint, const Refit& refit,
-                    const CourseSearch& search) {
-  std::array<Plane, 2> planes;
-  for (int plate = 0; plate < 2; ++plate)
-    planes[plate] = fitted(cloud, joint, plate, beside(cloud, joint, plate, refit), refit.noise);
-  set_planes(cloud, joint, planes, refit, search);
 }
 
 }  // namespace arcstart

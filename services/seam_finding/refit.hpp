@@ -6,6 +6,7 @@
 namespace arcstart {
 
 struct Refit {
+  int passes = 2;
   double distance = 60;  // from the seam up to which points count; mm
   int neighbours = 10;   // of statistical outlier removal, 0 for none
   double deviations = 3;
@@ -18,10 +19,4 @@ struct Refit {
 // course anew.
 void refit_joint(const ScanCloud& cloud, Joint& joint, const Refit& refit,
                  const CourseSearch& search);
-
-// Once more, by all points of a scan of which some gave the joint. Without removal of outliers: the
-// planes are near enough by then that those count for nothing.
-void refit_in_whole(const ScanCloud& cloud, Joint& joint, const Refit& refit,
-                    const CourseSearch& search);
-
 }  // namespace arcstart

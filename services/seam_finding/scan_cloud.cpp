@@ -10,7 +10,8 @@ namespace arcstart {
 namespace {
 
 constexpr double kLeastMotion = 5;  // mm
-constexpr int kSamples = 400;       // places where the cloud is measured
+constexpr int kSamples = 400;       // places where the points' distance is measured
+constexpr int kNoisePlaces = 200;   // and their noise
 constexpr int kNeighbours = 8;
 constexpr int kMostSteps = 8192;        // of a larger cloud so many serve
 constexpr int kNeighbourhoods = 16384;  // points that serve, of a cloud of more than twice as many
@@ -80,7 +81,7 @@ double surface_noise(const ScanCloud& cloud, double radius) {
   const NeighbourGrid grid(points, radius);
   std::vector<double> found;
   for (std::size_t i = 0; i < points.size();
-       i += std::max<std::size_t>(1, points.size() / kSamples)) {
+       i += std::max<std::size_t>(1, points.size() / kNoisePlaces)) {
     const Eigen::Vector3d& centre = points[i];
     PlaneSums sums(centre);
     grid.for_each_around(grid.cell_of(centre), [&](int cell) {

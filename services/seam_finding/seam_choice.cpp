@@ -109,13 +109,18 @@ std::vector<Joint> joints_between(const ScanCloud& scan, const ThinnedCloud& thi
 }
 
 Refit refit_of(const Scales& scales, const SeamFindingSettings& settings) {
-  return {settings.refit_distance_mm, settings.outlier_neighbours, settings.outlier_deviations,
-          scales.noise, scales.tolerance};
+  Refit refit;
+  refit.distance = settings.refit_distance_mm;
+  refit.neighbours = settings.outlier_neighbours;
+  refit.deviations = settings.outlier_deviations;
+  refit.noise = scales.noise;
+  refit.tolerance = scales.tolerance;
+  return refit;
 }
 
 // One entry a seam, best first; those that may be one are measured again beside it.
 std::vector<Joint> distinct_seams(const ScanCloud& scan, std::vector<Joint> joints,
-                                  const Scales& scales, const SeamFindingSettings& settings) {
+                                  const Refit& refit, const Scales& scales) {
   std::vector<Joint> seams;
   for (Joint& candidate : joints) {
     if (candidate.course.stripes == 0 && !seams.empty())
@@ -124,19 +129,29 @@ std::vector<Joint> distinct_seams(const ScanCloud& scan, std::vector<Joint> join
                     [&](const Joint& seam) { return same_seam(seam, candidate, scales.contact); }))
       continue;
     if (candidate.flaw.empty() && !is_flat(candidate.type))
-      refit_joint(scan, candidate, refit_of(scales, settings), course_search(scales));
+      refit_joint(scan, candidate, refit, course_search(scales));
     seams.push_back(std::move(candidate));
     if (static_cast<int>(seams.size()) == kAlternatives) break;
   }
   return seams;
 }
 
-// A seam found among the thinned points, by all points.
-void measure_in_whole(const ScanCloud& scan, const ThinnedCloud& thinned, Joint& joint,
-                      const Scales& scales, const SeamFindingSettings& settings) {
-  for (JointPlate& plate : joint.plates)
+// The first of two passes is by the thinned points; the second, of the best one alone, by all, near
+// enough by then that strays count for nothing.
+std::vector<Joint> distinct_seams(const ScanCloud& scan, const ThinnedCloud& thinned,
+                                  std::vector<Joint> joints, const Scales& scales,
+                                  const SeamFindingSettings& settings) {
+  Refit refit = refit_of(scales, settings);
+  if (!thinned.is_less_than(scan)) return distinct_seams(scan, std::move(joints), refit, scales);
+  refit.passes = 1;
+  auto seams = distinct_seams(thinned.cloud, std::move(joints), refit, scales);
+  Joint& best = seams.front();
+  if (!best.flaw.empty() || is_flat(best.type)) return seams;
+  for (JointPlate& plate : best.plates)
     plate.points = in_whole(scan, thinned, plate.points, plate.plane, scales.tolerance);
-  refit_in_whole(scan, joint, refit_of(scales, settings), course_search(scales));
+  refit.neighbours = 0;
+  refit_joint(scan, best, refit, course_search(scales));
+  return seams;
 }
 
 // What speaks against the best one, empty where nothing does.
@@ -168,7 +183,6 @@ void refuse(SeamResult& result, std::string reason) {
 void choose_seam(SeamResult& result, const ScanCloud& scan, const ThinnedCloud& thinned,
                  const std::vector<int>& left, std::vector<Face> faces, const Scales& scales,
                  const SeamFindingSettings& settings) {
-  const bool is_thinned = thinned.is_less_than(scan);
   const std::size_t planes = faces.size();
   auto joints = joints_between(scan, thinned, left, std::move(faces), scales, settings);
   if (joints.empty()) {
@@ -178,11 +192,9 @@ void choose_seam(SeamResult& result, const ScanCloud& scan, const ThinnedCloud& 
                                              planes));
     return;
   }
-  std::vector<Joint> seams =
-      distinct_seams(is_thinned ? thinned.cloud : scan, std::move(joints), scales, settings);
-  Joint& best = seams.front();
-  if (is_thinned && best.flaw.empty() && !is_flat(best.type))
-    measure_in_whole(scan, thinned, best, scales, settings);
+  const std::vector<Joint> seams =
+      distinct_seams(scan, thinned, std::move(joints), scales, settings);
+  const Joint& best = seams.front();
   int rivals = 0;
   for (std::size_t i = 1; i < seams.size(); ++i) {
     const bool rival = best.flaw.empty() && seams[i].flaw.empty() &&

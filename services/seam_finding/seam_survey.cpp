@@ -42,11 +42,11 @@ std::vector<SurveyPlace> survey_seam(const ScanCloud& cloud,
     }
   for (int i = 0; i < cloud.size(); ++i) {
     const Eigen::Vector3d& point = cloud.points[i];
-    const double along = line.along(point);
-    if (along < begin || along > end || line.distance(point) > kTackReach ||
-        plates[0].plane.signed_distance(point) < kTackHeight ||
-        plates[1].plane.signed_distance(point) < kTackHeight)
+    if (plates[0].plane.signed_distance(point) < kTackHeight ||
+        plates[1].plane.signed_distance(point) < kTackHeight || line.distance(point) > kTackReach)
       continue;
+    const double along = line.along(point);
+    if (along < begin || along > end) continue;
     const auto found = by_stripe.find(key(i, along));
     if (found != by_stripe.end()) ++found->second.bead;
   }
