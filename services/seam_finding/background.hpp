@@ -47,16 +47,21 @@ class SurfaceBackground : public Background {
     bool is_plane = false;
     Eigen::Vector3d low, high;  // of the cell's points
   };
-  // The surfaces near a cell: their centroids from its lowest corner, side by side.
+  // The surfaces near a cell: their centroids from its lowest corner, side by side. Where all are
+  // planes, in the cell none is farther from the common one than `apart`.
   struct Surroundings {
     NeighbourGrid::Cell middle;
     Eigen::Vector3d corner;
     int count;
     std::array<int, 28> cells;
     std::array<float, 28> x, y, z;
+    Plane common;
+    double apart;  // mm; infinite where not all are planes
   };
   void look_around(const NeighbourGrid::Cell& middle, Surroundings& around) const;
+  double apart_in_cell(Surroundings& around) const;  // sets the common plane
   bool contains(const Eigen::Vector3d& point, const Surroundings& around) const;
+  bool nearest_contains(const Eigen::Vector3d& point, const Surroundings& around) const;
 
   Sampling sampling_;
   double distance_;

@@ -136,20 +136,19 @@ std::vector<Joint> distinct_seams(const ScanCloud& scan, std::vector<Joint> join
   return seams;
 }
 
-// The first of two passes is by the thinned points; the second, of the best one alone, by all, near
-// enough by then that strays count for nothing.
+// The first of two passes is by the thinned points; the second, of the best one alone, by all. The
+// fits are robust: among so many points strays need not be sought.
 std::vector<Joint> distinct_seams(const ScanCloud& scan, const ThinnedCloud& thinned,
                                   std::vector<Joint> joints, const Scales& scales,
                                   const SeamFindingSettings& settings) {
   Refit refit = refit_of(scales, settings);
   if (!thinned.is_less_than(scan)) return distinct_seams(scan, std::move(joints), refit, scales);
-  refit.passes = 1;
+  refit.passes = 1, refit.neighbours = 0;
   auto seams = distinct_seams(thinned.cloud, std::move(joints), refit, scales);
   Joint& best = seams.front();
   if (!best.flaw.empty() || is_flat(best.type)) return seams;
   for (JointPlate& plate : best.plates)
     plate.points = in_whole(scan, thinned, plate.points, plate.plane, scales.tolerance);
-  refit.neighbours = 0;
   refit_joint(scan, best, refit, course_search(scales));
   return seams;
 }

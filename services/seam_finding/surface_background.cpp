@@ -17,7 +17,8 @@ constexpr double kLeastSpread =
 constexpr double kRoughSpacings = 0.75;  // reach of a point where there is no plane
 constexpr std::size_t kCrowd = 512;      // points of a cell that are looked at for the nearest one
 constexpr float kFarAway = 1e9f;         // mm; fills up what is not there
-constexpr unsigned kRemembered = 16;     // cells
+constexpr double kWithinCell = 1e-6;     // from its borders a cell is told without doubt; mm
+constexpr unsigned kRemembered = 128;    // cells
 
 double cell_size(const Sampling& sampling) {
   return std::max({kLeastCell, kCellSpacings * sampling.spacing, kCellSteps * sampling.step});
@@ -93,10 +94,39 @@ void SurfaceBackground::look_around(const NeighbourGrid::Cell& middle, Surroundi
     around.z[around.count] = centroid.z();
     ++around.count;
   });
+  around.apart = apart_in_cell(around);
+}
+
+// A linear function is the largest over a cube at one of its corners.
+double SurfaceBackground::apart_in_cell(Surroundings& around) const {
+  if (around.count == 0) return INFINITY;
+  around.common = surfaces_[around.cells[0]].plane;
+  const double half = grid_.cell_size() / 2;
+  const Eigen::Vector3d centre = around.corner + Eigen::Vector3d::Constant(half);
+  const double height = around.common.signed_distance(centre);
+  double apart = 0;
+  for (int i = 0; i < around.count; ++i) {
+    const Surface& surface = surfaces_[around.cells[i]];
+    if (!surface.is_plane) return INFINITY;
+    const Plane plane = surface.plane.normal.dot(around.common.normal) < 0 ? surface.plane.flipped()
+                                                                           : surface.plane;
+    const double tilt = (plane.normal - around.common.normal).lpNorm<1>();
+    apart = std::max(apart, std::abs(plane.signed_distance(centre) - height) + half * tilt);
+  }
+  return apart;
 }
 
 bool SurfaceBackground::contains(const Eigen::Vector3d& point, const Surroundings& around) const {
   if (around.count == 0) return false;
+  // Whichever surface is the nearest: the answer is plain but for a narrow range of distances.
+  const double about = std::abs(around.common.signed_distance(point));
+  if (about + around.apart < distance_) return true;
+  if (about - around.apart > distance_) return false;
+  return nearest_contains(point, around);
+}
+
+bool SurfaceBackground::nearest_contains(const Eigen::Vector3d& point,
+                                         const Surroundings& around) const {
   const Surface& nearest =
       surfaces_[around.cells[nearest_of(around.x.data(), around.y.data(), around.z.data(),
                                         around.count, (point - around.corner).cast<float>())]];
@@ -124,14 +154,23 @@ bool SurfaceBackground::contains(const Eigen::Vector3d& point) const {
 // A stripe runs through one cell for many points, or to and fro between two.
 void SurfaceBackground::classify(std::span<const Eigen::Vector3d> points,
                                  std::vector<char>& inside) const {
-  std::array<Surroundings, kRemembered> remembered;
+  std::vector<Surroundings> remembered(kRemembered);
   for (Surroundings& one : remembered) one.middle.setConstant(std::numeric_limits<int>::min());
+  const double from = kWithinCell, to = grid_.cell_size() - kWithinCell;
+  const Surroundings* around = nullptr;
   for (const Eigen::Vector3d& point : points) {
-    const NeighbourGrid::Cell middle = grid_.cell_of(point);
-    const auto place = static_cast<unsigned>(middle.x() + 2 * middle.y() + 4 * middle.z());
-    Surroundings& around = remembered[place % kRemembered];
-    if (around.middle != middle) look_around(middle, around);
-    inside.push_back(contains(point, around));
+    if (around != nullptr) {
+      const Eigen::Array3d place = point - around->corner;
+      if (!(place.minCoeff() > from && place.maxCoeff() < to)) around = nullptr;
+    }
+    if (around == nullptr) {
+      const NeighbourGrid::Cell middle = grid_.cell_of(point);
+      const auto place = static_cast<unsigned>(middle.x() + 37 * middle.y() + 101 * middle.z());
+      Surroundings& found = remembered[place % kRemembered];
+      if (found.middle != middle) look_around(middle, found);
+      around = &found;
+    }
+    inside.push_back(contains(point, *around));
   }
 }
 

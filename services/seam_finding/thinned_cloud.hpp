@@ -13,8 +13,9 @@ struct ThinnedCloud {
   ScanCloud cloud;
   std::vector<int> places;  // of its points in the whole scan, rising
 
+  // By so much that it is worth while.
   bool is_less_than(const ScanCloud& scan) const {
-    return !places.empty() && places.size() < scan.points.size();
+    return !places.empty() && 2 * places.size() < scan.points.size();
   }
 };
 
