@@ -2,6 +2,9 @@
 
 #include <algorithm>
 #include <cmath>
+#include <functional>
+
+#include "services/seam_finding/interruption.hpp"
 
 namespace arcstart {
 namespace {
@@ -41,16 +44,21 @@ std::vector<Stretch> stretches(const Stations& all, double spacing) {
   return found;
 }
 
-// The longest, and what lies beyond short interruptions of it. A lone stripe is part of the seam
-// only where no more than one stripe lies between.
+// Of the stations between two of them.
+using HiddenBetween = std::function<bool(int, int)>;
+
+// The longest, and what lies beyond short interruptions of it, or such where it is hidden. A lone
+// stripe is part of the seam only where no more than one stripe lies between.
 Stretch longest(const std::vector<Stretch>& found, const std::vector<Station>& stations,
-                const CourseSearch& search) {
+                const CourseSearch& search, const HiddenBetween& hidden) {
   const auto best =
       std::max_element(found.begin(), found.end(),
                        [](const Stretch& a, const Stretch& b) { return a.covered < b.covered; });
   Stretch whole = *best;
-  const auto joins = [&](const Stretch& piece, double gap) {
-    return gap <= (piece.stripes < 2 ? kLoneGap * search.spacing : search.bridge);
+  const auto joins = [&](const Stretch& piece, int from, int to) {
+    const double gap = stations[to].along - stations[from].along;
+    if (piece.stripes < 2) return gap <= kLoneGap * search.spacing;
+    return gap <= search.bridge || (hidden && hidden(from, to));
   };
   const auto take = [&](const Stretch& piece) {
     whole.first = std::min(whole.first, piece.first);
@@ -60,11 +68,11 @@ Stretch longest(const std::vector<Stretch>& found, const std::vector<Station>& s
   };
   for (auto piece = best; piece != found.begin();) {
     --piece;
-    if (!joins(*piece, stations[whole.first].along - stations[piece->last].along)) break;
+    if (!joins(*piece, piece->last, whole.first)) break;
     take(*piece);
   }
   for (auto piece = best + 1; piece != found.end(); ++piece) {
-    if (!joins(*piece, stations[piece->first].along - stations[whole.last].along)) break;
+    if (!joins(*piece, whole.last, piece->first)) break;
     take(*piece);
   }
   return whole;
@@ -81,24 +89,32 @@ double end_beyond(const std::vector<Station>& stations, int from, int step, int&
   return stations[from].along;
 }
 
-}  // namespace
-
-Course find_course(const ScanCloud& cloud, const std::array<JointPlate, 2>& plates,
-                   const Line& line, const CourseSearch& search) {
-  return find_course(stations_along(cloud, plates, line, search), search);
-}
-
-Course find_course(const Stations& stations, const CourseSearch& search) {
+Course course_of(const Stations& stations, const CourseSearch& search,
+                 const HiddenBetween& hidden) {
   Course course;
   const auto found = stretches(stations, search.spacing);
   if (found.empty()) return course;
-  const Stretch whole = longest(found, stations.list, search);
+  const Stretch whole = longest(found, stations.list, search, hidden);
   course.stripes = whole.stripes;
   course.covered = whole.covered;
   course.begin =
       end_beyond(stations.list, whole.first, -1, course.missing_before, course.begins_outside);
   course.end = end_beyond(stations.list, whole.last, +1, course.missing_after, course.ends_outside);
   return course;
+}
+
+}  // namespace
+
+Course find_course(const ScanCloud& cloud, const std::array<JointPlate, 2>& plates,
+                   const Line& line, const CourseSearch& search) {
+  const Stations stations = stations_along(cloud, plates, line, search);
+  return course_of(stations, search, [&](int from, int to) {
+    return hidden_between(cloud, plates, line, stations, from, to, search.tolerance);
+  });
+}
+
+Course find_course(const Stations& stations, const CourseSearch& search) {
+  return course_of(stations, search, nullptr);
 }
 
 double centroid_of_first(const ScanCloud& cloud, const std::array<JointPlate, 2>& plates,

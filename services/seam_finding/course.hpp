@@ -20,8 +20,9 @@ struct Course {
 };
 
 // The longest stretch of the line on which both plates have points, with what follows behind short
-// interruptions. Its ends lie half-way between the last stripe that shows both plates and the next
-// one that does not. stripes is 0 where there is none.
+// interruptions, and behind any in which the plates are only hidden. Its ends lie half-way between
+// the last stripe that shows both plates and the next one that does not. stripes is 0 where there
+// is none.
 Course find_course(const ScanCloud& cloud, const std::array<JointPlate, 2>& plates,
                    const Line& line, const CourseSearch& search);
 Course find_course(const Stations& stations, const CourseSearch& search);

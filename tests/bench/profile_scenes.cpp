@@ -55,6 +55,7 @@ void bench_profiles(int seeds, const SeedsOfRow& wanted, nlohmann::json& json) {
       {"none", {}, {}},
       {"tool", tool, {}},
       {"big_box", {.big_box = true}, {}},
+      {"box_on_base", {.box_on_base = true}, {}},
       {"long_base", {.tool = true, .base_overhang = 10}, {}},
       {"short_base", {.tool = true, .base_overhang = -10}, {}},
       {"tee75", {.tilt_deg = 75}, {}},
@@ -82,7 +83,8 @@ void bench_profiles(int seeds, const SeedsOfRow& wanted, nlohmann::json& json) {
       for (int seed = wanted.first; seed < wanted.first + count; ++seed) {
         const synthetic::Scene scene =
             synthetic::make_scene(row.scene, static_cast<std::uint64_t>(seed));
-        figures.add(seed, answer(scene, choice, row.joint_type, seed), truth_of(scene), 1);
+        const bool hidden = row.scene.box_on_base && !synthetic::start_in_sight(scene, choice);
+        figures.add(seed, answer(scene, choice, row.joint_type, seed), truth_of(scene), 1, hidden);
       }
       figures.finish(json);
     }

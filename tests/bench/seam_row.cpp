@@ -12,6 +12,8 @@
 namespace arcstart {
 namespace {
 
+constexpr double kSilent = 1;  // mm
+
 double mean(const std::vector<double>& values) {
   return values.empty() ? 0
                         : std::accumulate(values.begin(), values.end(), 0.0) /
@@ -29,8 +31,8 @@ double percentile(std::vector<double> values, double share) {
 
 }  // namespace
 
-void SeamRow::add(int seed, const seam_t& seam, const std::optional<truth_t>& truth,
-                  double tell_mm) {
+void SeamRow::add(int seed, const seam_t& seam, const std::optional<truth_t>& truth, double tell_mm,
+                  bool start_hidden) {
   ++seeds_;
   if (seam.verdict != seam_t::FOUND) {
     ++refused_;
@@ -46,6 +48,12 @@ void SeamRow::add(int seed, const seam_t& seam, const std::optional<truth_t>& tr
   }
   const SeamError error = seam_error(seam, *truth);
   wrong_ += error.wrong;
+  if (start_hidden && !error.wrong && seam.start_visibility != seam_t::SEEN) {
+    ++flagged_;
+    return;
+  }
+  const bool silent = error.start_mm > kSilent && seam.start_visibility == seam_t::SEEN;
+  silent_ += silent;
   start_.push_back(error.start_mm);
   lateral_.push_back(error.lateral_mm);
   direction_.push_back(error.direction_deg);
@@ -57,9 +65,9 @@ void SeamRow::add(int seed, const seam_t& seam, const std::optional<truth_t>& tr
     within_ += std::abs(error.along_mm) <= 2 * deviation;
   }
   if (error.wrong || error.start_mm > tell_mm)
-    fmt::print("  {} seed {}: start {:.3f} mm (along {:.3f}, deviation {:.3f}), {}{}\n", name_,
-               seed, error.start_mm, error.along_mm, deviation, seam.remark,
-               error.wrong ? "  WRONG" : "");
+    fmt::print("  {} seed {}: start {:.3f} mm (along {:.3f}, deviation {:.3f}{}{}), {}{}\n", name_,
+               seed, error.start_mm, error.along_mm, deviation, start_hidden ? ", hidden" : "",
+               silent ? ", silent" : "", seam.remark, error.wrong ? "  WRONG" : "");
 }
 
 void print_row_header() {
@@ -84,6 +92,11 @@ void SeamRow::finish(nlohmann::json& json) const {
   json[name_ + ".n"] = seeds_;
   json[name_ + ".wrong"] = wrong_;
   json[name_ + ".refused"] = refused_;
+  json[name_ + ".flagged"] = flagged_;
+  json[name_ + ".silent"] = silent_;
+  if (flagged_ > 0 || silent_ > 0)
+    fmt::print("  {}: {} hidden starts flagged, {} silent errors over 1 mm\n", name_, flagged_,
+               silent_);
   if (start_.empty()) return;
   json[name_ + ".start_mean_mm"] = mean(start_);
   json[name_ + ".start_p95_mm"] = start95;

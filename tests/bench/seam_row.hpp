@@ -16,13 +16,17 @@ class SeamRow {
 
   // truth: nothing where there is no seam, so that every answer is wrong. Prints seeds that are
   // wrong or not answered, and those whose start is off by more than `tell_mm`.
-  void add(int seed, const seam_t& seam, const std::optional<truth_t>& truth, double tell_mm);
+  // start_hidden: of the truth. An answer that says so too is counted as flagged, and its bound is
+  // no start; an error over 1 mm of a start that is said to be seen is silent.
+  void add(int seed, const seam_t& seam, const std::optional<truth_t>& truth, double tell_mm,
+           bool start_hidden = false);
 
   // One line to the table, and the figures as NAME.n, NAME.wrong and so on.
   void finish(nlohmann::json& json) const;
 
  private:
   std::string name_;
+  int flagged_ = 0, silent_ = 0;
   int seeds_ = 0, wrong_ = 0, refused_ = 0, within_ = 0, covered_ = 0;
   std::vector<double> start_, lateral_, direction_;  // of each answer; mm, mm, deg
 };

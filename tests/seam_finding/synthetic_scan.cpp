@@ -135,6 +135,23 @@ Eigen::Isometry3d placed(double x, double y, double yaw) {
          Eigen::Isometry3d(Eigen::AngleAxisd(yaw, Eigen::Vector3d::UnitZ()));
 }
 
+constexpr double kStandOff = 300;
+
+// Where it looks, by the tool's place along the search.
+struct Sensor {
+  Eigen::Vector3d search = Eigen::Vector3d::UnitX(), lateral, laser_axis;
+  Eigen::Vector3d axis;  // of the camera, downward over the open side
+
+  explicit Sensor(double lean_deg)
+      : axis(0, -std::sin(lean_deg * kDegree), -std::cos(lean_deg * kDegree)) {
+    lateral = axis.cross(search).normalized();
+    laser_axis = Eigen::AngleAxisd(22 * kDegree, lateral) * axis;
+  }
+  Eigen::Vector3d aim(double x) const { return x * search + Eigen::Vector3d(0, 10, 15); }
+  Eigen::Vector3d camera(double x) const { return aim(x) - kStandOff * axis; }
+  Eigen::Vector3d laser(double x) const { return aim(x) - kStandOff * laser_axis; }
+};
+
 }  // namespace
 
 Scene make_scene(const SceneChoice& choice, std::uint64_t seed) {
@@ -168,6 +185,14 @@ Scene make_scene(const SceneChoice& choice, std::uint64_t seed) {
       scene.normals[1] = foot.linear() * Eigen::Vector3d::UnitY();
     }
   }
+  if (choice.box_on_base) {
+    const Eigen::Isometry3d on_base =
+        work * Eigen::Translation3d(random.between(-5, 25), random.between(4, 35), base) *
+        Eigen::AngleAxisd(random.between(-40, 40) * kDegree, Eigen::Vector3d::UnitZ());
+    scene.boxes.push_back(
+        standing_box(on_base, {0, 0, 0},
+                     {random.between(12, 25), random.between(12, 25), random.between(8, 25)}));
+  }
   if (choice.tool) {  // handle and head of a hammer
     const auto lying =
         placed(random.between(0, 70), random.between(62, 75), random.between(-40, 40) * kDegree);
@@ -181,15 +206,33 @@ Scene make_scene(const SceneChoice& choice, std::uint64_t seed) {
   return scene;
 }
 
+bool start_in_sight(const Scene& scene, const ScanChoice& choice) {
+  const Sensor sensor(choice.lean_deg);
+  const Eigen::Vector3d along = (scene.end - scene.start).normalized();
+  const auto lit_at = [&](const Eigen::Vector3d& point) {
+    // The tool's place from which the sheet falls on the point.
+    const Eigen::Vector3d normal = sensor.laser_axis.cross(sensor.lateral);
+    const double x = normal.dot(point - sensor.aim(0)) / normal.dot(sensor.search);
+    const Eigen::Vector3d laser = sensor.laser(x), ray = (point - laser).normalized();
+    const auto lit = lit_and_seen(scene, laser, ray, sensor.camera(x));
+    return lit && (lit->point - point).norm() < 0.1;
+  };
+  // Of the plates, in each away from the other.
+  for (const double r : {2.0, 3.0, 4.0})
+    for (const int plate : {0, 1}) {
+      const Eigen::Vector3d& n = scene.normals[plate];
+      const Eigen::Vector3d other = scene.normals[1 - plate];
+      const Eigen::Vector3d away = (other - other.dot(n) * n).normalized();
+      if (!lit_at(scene.start + 0.05 * along + r * away)) return false;
+    }
+  return true;
+}
+
 SyntheticScan make_scan(const Scene& scene, const ScanChoice& choice, std::uint64_t seed) {
   Random random{std::mt19937_64(seed * 104729 + 5)};
-  const Eigen::Vector3d search = Eigen::Vector3d::UnitX();
-  const double lean = choice.lean_deg * kDegree;
-  const Eigen::Vector3d axis(0, -std::sin(lean),
-                             -std::cos(lean));  // of the camera, downward over the open side
-  const Eigen::Vector3d lateral = axis.cross(search).normalized();
-  const Eigen::Vector3d laser_axis = Eigen::AngleAxisd(22 * kDegree, lateral) * axis;
-  constexpr double kStandOff = 300;
+  const Sensor sensor(choice.lean_deg);
+  const Eigen::Vector3d &search = sensor.search, &lateral = sensor.lateral,
+                        &laser_axis = sensor.laser_axis;
   constexpr int kHalf = 800;
   const double step = 0.125 / kStandOff;
 
@@ -197,8 +240,7 @@ SyntheticScan make_scan(const Scene& scene, const ScanChoice& choice, std::uint6
   ScanCloud& cloud = scan.cloud;
   const double phase = random.between(0, choice.pitch);
   for (double x = choice.from + phase; x < choice.to; x += choice.pitch) {
-    const Eigen::Vector3d aim = x * search + Eigen::Vector3d(0, 10, 15);
-    const Eigen::Vector3d camera = aim - kStandOff * axis, laser = aim - kStandOff * laser_axis;
+    const Eigen::Vector3d camera = sensor.camera(x), laser = sensor.laser(x);
     const Eigen::Vector3d shift(random.normal(choice.stripe_noise),
                                 random.normal(choice.stripe_noise),
                                 random.normal(choice.stripe_noise));

@@ -37,8 +37,9 @@ struct SceneChoice {
   // mm.
   std::string joint = "tee";
   bool workpiece = true;
-  bool tool = false;     // left lying on the table beside the workpiece
-  bool big_box = false;  // larger than the workpiece, beside it
+  bool tool = false;         // left lying on the table beside the workpiece
+  bool big_box = false;      // larger than the workpiece, beside it
+  bool box_on_base = false;  // small, on the base plate's open side, near the start or over it
   double base_overhang =
       0;  // the base plate begins so much earlier (negative: later) than the upright; mm
   double tilt_deg = 90;     // between upright and base
@@ -56,6 +57,9 @@ struct ScanChoice {
   double lean_deg = 38;         // of the optical axis over the open side
   double outliers = 0.002;      // share of points that lie anywhere up to 20 mm off
 };
+// Whether the stripe through the seam's start is lit and in sight there on both plates of a tee:
+// wherever it runs no nearer than 2 mm to the seam and no farther than 4.
+bool start_in_sight(const Scene& scene, const ScanChoice& choice);
 // What a point truly lies on.
 enum class Truth : char { kTable, kBox, kOutlier };
 struct SyntheticScan {
