@@ -57,8 +57,8 @@ Stretch longest(const std::vector<Stretch>& found, const std::vector<Station>& s
   Stretch whole = *best;
   const auto joins = [&](const Stretch& piece, int from, int to) {
     const double gap = stations[to].along - stations[from].along;
-    if (piece.stripes < 2) return gap <= kLoneGap * search.spacing;
-    return gap <= search.bridge || (hidden && hidden(from, to));
+    return gap <= (piece.stripes < 2 ? kLoneGap * search.spacing : search.bridge) ||
+           (hidden && hidden(from, to));
   };
   const auto take = [&](const Stretch& piece) {
     whole.first = std::min(whole.first, piece.first);

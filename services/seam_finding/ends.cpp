@@ -47,11 +47,18 @@ Bracket bracket_of(const Stations& stations, int plate, double end, double outwa
   return bracket;
 }
 
-// What is seen on the plate and past it.
+// By what is seen on the plate and past it. A plate that is seen beyond the stripes which do not
+// show it at the seam was only hidden there.
 void narrow(Bracket& bracket, const PlateExtent& extent, double margin, double outward) {
   const double inner = std::max(outward * bracket.inner, extent.on);
-  const double outer = std::min(outward * bracket.outer + margin, extent.past);
-  if (inner < outer) bracket.inner = outward * inner, bracket.outer = outward * outer;
+  double outer = outward * bracket.outer + margin;
+  if (extent.on > outer) {
+    outer = extent.past;
+    bracket.runs_on = !std::isfinite(outer);
+  }
+  outer = std::min(outer, extent.past);
+  if (inner < outer && std::isfinite(outer))
+    bracket.inner = outward * inner, bracket.outer = outward * outer;
 }
 
 // A lone stripe may end for another reason than the plate's edge.
