@@ -59,12 +59,9 @@ ARCSTART_FOR_EACH_INSTRUCTION_SET(measure_bend, (const Grid& grid), (grid))
 
 }  // namespace
 
-void Bend::resize(const SmoothedGrid& grid) {
+void Bend::measure(const SmoothedGrid& grid, const CellPlane& asked) {
   highest_.resize(grid.cell_columns(), grid.cell_rows() * kRows);
-}
-
-void Bend::measure(const SmoothedGrid& grid, const CellPlane& asked, int begin, int end) {
-  for (int row = begin; row < end; ++row) {
+  for (int row = 1; row + 1 < grid.cell_rows(); ++row) {
     const int y = row * kRows;
     measure_bend({grid.row(y), grid.row(1) - grid.row(0), asked.row(row), grid.cell_columns(),
                   highest_.row(y), highest_.row(1) - highest_.row(0)});

@@ -14,9 +14,8 @@ class Bend {
   // the eighths lost, of 384; xy 50 of 4608, and 5 of the 7/8 lost of first differences, of 576.
   static constexpr double kShort = 6.0 / 384 + 50.0 / 4608 + 5.0 * 7 / 8 / 576 + kUnit;
 
-  void resize(const SmoothedGrid& grid);
-  // In the grid's cells in rows begin .. end-1 that are asked for, and some others.
-  void measure(const SmoothedGrid& grid, const CellPlane& asked, int begin, int end);
+  // In the grid's cells that are asked for, and some others; 0 in its first and last row of cells.
+  void measure(const SmoothedGrid& grid, const CellPlane& asked);
   const CellPlane& highest() const { return highest_; }  // in kUnit; 0 where it bends up
 
  private:

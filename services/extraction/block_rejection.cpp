@@ -1,11 +1,14 @@
 #include "services/extraction/block_rejection.hpp"
 
+#include <algorithm>
 #include <numeric>
 
 #include "services/extraction/instruction_sets.hpp"
 
 namespace arcstart {
 namespace {
+
+constexpr int kRowsOfBand = 24;
 
 int cells(int reach, int size) { return (reach + size - 1) / size; }
 
@@ -66,6 +69,13 @@ ARCSTART_INLINE_BODY void test_bends_body(const BendTest& test) {
 }
 ARCSTART_FOR_EACH_INSTRUCTION_SET(test_bends, (const BendTest& test), (test))
 
+void widen(const CellRanges& ranges, int reach, CellPlane& work, CellRanges& widened) {
+  const int reach_columns = cells(reach, SmoothedGrid::kCellWidth),
+            reach_rows = cells(reach, SmoothedGrid::kCellHeight);
+  ranges.highest.widen(1, reach_columns, reach_rows, work, widened.highest);
+  ranges.lowest_lacks.widen(1, reach_columns, reach_rows, work, widened.lowest_lacks);
+}
+
 }  // namespace
 
 void BlockRejection::mark(const GreyImage& image, const GaussianKernels& kernels,
@@ -77,67 +87,70 @@ void BlockRejection::mark(const GreyImage& image, const GaussianKernels& kernels
   }
   columns_ = cells(image.width, kWidth);
   rows_ = cells(image.height, kHeight);
-  grid_.resize(image.width, image.height, 2 * columns_, pool.size());
-  pool.run([&](int strip) {
-    const StripRange rows(rows_, strip, pool.size());
-    grid_.smooth(image, strip, rows.begin, rows.end);
-  });
+  active_.resize(static_cast<std::size_t>(columns_) * rows_);
+  bands_.resize(static_cast<std::size_t>(pool.size()));
   // 1/64 grey value for the rounding of float sums.
   const double least = least_curvature - bound_.per_smoothed_grey / 64;
-  mark_by_range(least);
-  if (bend_bound_.holds) leave_out_by_bend(least, pool);
-  active_.resize(static_cast<std::size_t>(columns_) * rows_);
-  for (int row = 0; row < rows_; ++row) {
-    const std::uint16_t* cells_of_row = cells_.row(row);
-    for (int column = 0; column < columns_; ++column)
-      active_[row * columns_ + column] =
-          (cells_of_row[2 * column] | cells_of_row[2 * column + 1]) != 0;
+  // The same bands for any number of threads.
+  pool.run([&](int strip) {
+    const StripRange share(cells(rows_, kRowsOfBand), strip, pool.size());
+    for (int i = share.begin; i < share.end; ++i)
+      mark_band(image, least, i * kRowsOfBand, bands_[static_cast<std::size_t>(strip)]);
+  });
+}
+
+// Second differences take two of the grid's rows on either side.
+int BlockRejection::rows_in_reach() const {
+  const int of_ranges = cells(bound_.reach, kHeight);
+  if (!bend_bound_.holds) return of_ranges;
+  return std::max(
+      {of_ranges, cells(bend_bound_.rest_reach, kHeight), cells(bend_bound_.reach, kHeight) + 1});
+}
+
+void BlockRejection::mark_band(const GreyImage& image, double least_curvature, int first_row,
+                               Band& band) {
+  const int reach = rows_in_reach();
+  band.grid.resize(2 * columns_, kRowsOfBand + 2 * reach);
+  band.grid.smooth(image, first_row - reach);
+  mark_by_range(least_curvature, band);
+  if (bend_bound_.holds) leave_out_by_bend(least_curvature, band);
+  for (int row = first_row; row < std::min(first_row + kRowsOfBand, rows_); ++row) {
+    const std::uint16_t* cell = band.cells.row(row - first_row + reach);
+    for (int column = 0; column < columns_; ++column, cell += 2)
+      active_[row * columns_ + column] = (cell[0] | cell[1]) != 0;
   }
 }
 
-void BlockRejection::widen(const CellRanges& ranges, int reach, CellRanges& widened) {
-  const int reach_columns = cells(reach, SmoothedGrid::kCellWidth),
-            reach_rows = cells(reach, SmoothedGrid::kCellHeight);
-  ranges.highest.widen(1, reach_columns, reach_rows, work_, widened.highest);
-  ranges.lowest_lacks.widen(1, reach_columns, reach_rows, work_, widened.lowest_lacks);
-}
-
-void BlockRejection::mark_by_range(double least_curvature) {
-  widen(grid_.smoothed(), bound_.smoothed_reach, smoothed_);
-  widen(grid_.plain(), bound_.reach, plain_);
-  cells_.resize(2 * columns_, rows_);
-  for (int row = 0; row < rows_; ++row)
-    test_ranges({{smoothed_, row, bound_.per_smoothed_grey / 256},
-                 {plain_, row, bound_.per_grey},
+void BlockRejection::mark_by_range(double least_curvature, Band& band) const {
+  widen(band.grid.smoothed(), bound_.smoothed_reach, band.work, band.smoothed);
+  widen(band.grid.plain(), bound_.reach, band.work, band.plain);
+  band.cells.resize(band.grid.cell_columns(), band.grid.cell_rows());
+  for (int row = 0; row < band.cells.rows(); ++row)
+    test_ranges({{band.smoothed, row, bound_.per_smoothed_grey / 256},
+                 {band.plain, row, bound_.per_grey},
                  static_cast<float>(least_curvature),
-                 2 * columns_,
-                 cells_.row(row)});
+                 band.cells.columns(),
+                 band.cells.row(row)});
 }
 
-// Not where most of the image is left: then it is noise, which bends as much as it ranges.
-void BlockRejection::leave_out_by_bend(double least_curvature, ThreadPool& pool) {
+// Not where most of the band is left: then it is noise, which bends as much as it ranges.
+void BlockRejection::leave_out_by_bend(double least_curvature, Band& band) const {
   int left = 0;
-  for (int row = 0; row < rows_; ++row)
-    left = std::accumulate(cells_.row(row), cells_.row(row) + 2 * columns_, left);
-  if (10 * left > 6 * 2 * columns_ * rows_) return;
-  const int reach = bend_bound_.reach;
-  cells_.widen(1, cells(reach, SmoothedGrid::kCellWidth), cells(reach, SmoothedGrid::kCellHeight),
-               work_, asked_);
-  grid_.mirror();
-  bend_.resize(grid_);
-  pool.run([&](int strip) {
-    const StripRange rows(rows_, strip, pool.size());
-    bend_.measure(grid_, asked_, rows.begin, rows.end);
-  });
-  bend_.highest().widen(SmoothedGrid::kRows, cells(reach, SmoothedGrid::kCellWidth),
-                        cells(reach, 2), bend_work_, highest_bend_);
-  widen(grid_.plain(), bend_bound_.rest_reach, near_);
-  for (int row = 0; row < rows_; ++row)
-    test_bends({highest_bend_.row(row),
-                {near_, row, bend_bound_.per_grey},
+  for (int row = 0; row < band.cells.rows(); ++row)
+    left = std::accumulate(band.cells.row(row), band.cells.row(row) + band.cells.columns(), left);
+  if (left == 0 || 10 * left > 9 * band.cells.columns() * band.cells.rows()) return;
+  const int reach = bend_bound_.reach, reach_columns = cells(reach, SmoothedGrid::kCellWidth);
+  band.cells.widen(1, reach_columns, cells(reach, kHeight), band.work, band.asked);
+  band.bend.measure(band.grid, band.asked);
+  band.bend.highest().widen(SmoothedGrid::kRows, reach_columns, cells(reach, 2), band.bend_work,
+                            band.highest_bend);
+  widen(band.grid.plain(), bend_bound_.rest_reach, band.work, band.near);
+  for (int row = 0; row < band.cells.rows(); ++row)
+    test_bends({band.highest_bend.row(row),
+                {band.near, row, bend_bound_.per_grey},
                 static_cast<float>(least_curvature - bend_bound_.far - Bend::kShort),
-                2 * columns_,
-                cells_.row(row)});
+                band.cells.columns(),
+                band.cells.row(row)});
 }
 
 }  // namespace arcstart

@@ -29,21 +29,26 @@ class BlockRejection {
   bool active(int column, int row) const { return active_[row * columns_ + column] != 0; }
 
  private:
-  void widen(const CellRanges& ranges, int reach, CellRanges& widened);
-  void mark_by_range(double least_curvature);
-  void leave_out_by_bend(double least_curvature, ThreadPool& pool);
+  // What is known of a band of rows of cells and those in reach of them: little enough to stay in
+  // the second-level cache.
+  struct Band {
+    SmoothedGrid grid;
+    Bend bend;
+    CellRanges smoothed, plain, near;  // of each cell and those in reach of it
+    CellPlane highest_bend;            // likewise
+    CellPlane cells, asked;            // 1: may hold such a pixel; its bend is asked for
+    CellPlane work, bend_work;
+  };
+  void mark_band(const GreyImage& image, double least_curvature, int first_row, Band& band);
+  void mark_by_range(double least_curvature, Band& band) const;
+  void leave_out_by_bend(double least_curvature, Band& band) const;
+  int rows_in_reach() const;
 
   int columns_ = 0, rows_ = 0;
   double bound_sigma_ = 0;
   CurvatureBound bound_{};
   BendBound bend_bound_{};
-  SmoothedGrid grid_;
-  Bend bend_;
-  // Of each cell and those in reach of it.
-  CellRanges smoothed_, plain_, near_;
-  CellPlane highest_bend_;
-  CellPlane cells_, asked_;  // 1: may hold such a pixel; its bend is asked for
-  CellPlane work_, bend_work_;
+  std::vector<Band> bands_;           // of each thread
   std::vector<std::uint8_t> active_;  // of each block
 };
 

@@ -122,32 +122,27 @@ ARCSTART_FOR_EACH_INSTRUCTION_SET(smooth_row_of_cells, (const Smoothing& smoothi
 
 }  // namespace
 
-void SmoothedGrid::resize(int image_width, int image_height, int cell_columns, int strips) {
-  image_width_ = image_width;
-  image_height_ = image_height;
-  known_rows_ = (image_height + 1) / 2;
-  const int cell_rows = (image_height + kCellHeight - 1) / kCellHeight;
+void SmoothedGrid::resize(int cell_columns, int cell_rows) {
   for (CellRanges* ranges : {&smoothed_, &plain_})
     for (CellPlane* plane : {&ranges->highest, &ranges->lowest_lacks})
       plane->resize(cell_columns, cell_rows);
   stride_ = kBefore + cell_columns * kColumns + kAfter;
-  eighths_.resize(static_cast<std::size_t>(cell_rows * kRows + 2 * kRoom) * stride_);
-  lines_.resize(static_cast<std::size_t>(strips));
-  for (auto& lines : lines_) lines.resize(static_cast<std::size_t>(2 * kRows) * stride_);
+  eighths_.resize(static_cast<std::size_t>(cell_rows * kRows) * stride_);
+  lines_.resize(static_cast<std::size_t>(2 * kRows) * stride_);
 }
 
-void SmoothedGrid::smooth(const GreyImage& image, int strip, int begin, int end) {
-  std::uint16_t* lines = lines_[static_cast<std::size_t>(strip)].data() + kBefore;
-  for (int row = begin; row < end; ++row) {
+void SmoothedGrid::smooth(const GreyImage& image, int first_cell_row) {
+  for (int row = 0; row < cell_rows(); ++row) {
     Smoothing s{};
     for (int k = 0; k < kRowsUnder; ++k)
-      s.rows[k] = image.row(reflect_101(row * kCellHeight + k - kReach, image.height));
+      s.rows[k] =
+          image.row(reflect_101((first_cell_row + row) * kCellHeight + k - kReach, image.height));
     s.width = image.width;
     s.cell_columns = cell_columns();
-    s.even = lines;
-    s.odd = lines + kRows * stride_;
+    s.even = lines_.data() + kBefore;
+    s.odd = s.even + kRows * stride_;
     s.line_stride = stride_;
-    s.eighths = this->row(row * kRows);
+    s.eighths = eighths_.data() + row * kRows * stride_ + kBefore;
     s.eighths_stride = stride_;
     s.highest = smoothed_.highest.row(row);
     s.lowest_lacks = smoothed_.lowest_lacks.row(row);
@@ -156,18 +151,12 @@ void SmoothedGrid::smooth(const GreyImage& image, int strip, int begin, int end)
     smooth_row_of_cells(s);
     for (CellRanges* ranges : {&smoothed_, &plain_})
       for (CellPlane* plane : {&ranges->highest, &ranges->lowest_lacks}) plane->end_row(row);
+    // Even places mirrored at a whole one are even places.
+    const int end = cell_columns() * kColumns;
+    for (int i = 0; i < kRows; ++i)
+      for (const int x : {-2, -1, end, end + 1})
+        s.eighths[i * stride_ + x] = s.eighths[i * stride_ + reflect_101(2 * x, image.width) / 2];
   }
-}
-
-// Even places mirrored at a whole one are even places.
-void SmoothedGrid::mirror() {
-  const int end = cell_columns() * kColumns;
-  for (int y = 0; y < known_rows_; ++y)
-    for (const int x : {-2, -1, end, end + 1})
-      row(y)[x] = row(y)[reflect_101(2 * x, image_width_) / 2];
-  for (const int y : {-2, -1, known_rows_, known_rows_ + 1})
-    std::copy_n(row(reflect_101(2 * y, image_height_) / 2) - kRoom, end + 2 * kRoom,
-                row(y) - kRoom);
 }
 
 }  // namespace arcstart
