@@ -37,10 +37,10 @@ ARCSTART_INLINE_BODY void bend_at(const Grid& grid, int x) {
     const Values xx = second[k - 1] + second[k] + second[k + 1];                        // x 384
     const Values yy = sum[k - 2] + sum[k + 2] - 2 * sum[k];                             // x 384
     const Values xy = first[k + 2] - first[k - 2] + 4 * (first[k + 1] - first[k - 1]);  // x 576
-    const Values down = higher_of(Values{}, higher_of(-xx, -yy));  // at most 12 240
-    const Values bend = down + (down >> 1) + higher_of(xy, -xy);   // at most 31 110
+    const Values down = higher_of(-xx, -yy);                      // at most 12 240
+    const Values bend = down + (down >> 1) + higher_of(xy, -xy);  // at most 31 110
     store(grid.highest + (k - 2) * grid.highest_stride + x / SmoothedGrid::kColumns,
-          highest_of_fours<kFloats>((Words<kFloats>)bend));
+          highest_of_fours<kFloats>((Words<kFloats>)higher_of(Values{}, bend)));
   }
 }
 

@@ -4,7 +4,9 @@
 #include <cmath>
 #include <opencv2/imgproc.hpp>
 
+#include "services/extraction/bend.hpp"
 #include "services/extraction/bend_bound.hpp"
+#include "services/extraction/block_rejection.hpp"
 #include "services/extraction/curvature_bound.hpp"
 #include "services/extraction/ridge.hpp"
 #include "tests/extraction/opencv_judge.hpp"
@@ -42,6 +44,26 @@ std::vector<cv::Mat> hard_images(double sigma) {
   cv::resize(noise(cv::Rect(0, 0, 30, 30)), patches, patches.size(), 0, 0, cv::INTER_NEAREST);
   images.push_back(patches);
   return images;
+}
+
+// max(-xx, -yy) + |xy| of bend_bound.hpp at every pixel, the known ones two apart.
+cv::Mat exact_bend(const cv::Mat& image) {
+  const auto row = [](std::initializer_list<double> taps, double divisor) {
+    cv::Mat kernel(1, static_cast<int>(taps.size()), CV_64F);
+    std::copy(taps.begin(), taps.end(), kernel.begin<double>());
+    return cv::Mat(kernel / divisor);
+  };
+  const cv::Mat binomial = row({1, 4, 6, 4, 1}, 16), second = row({1, 0, 0, 0, -2, 0, 0, 0, 1}, 16),
+                mean = row({1, 0, 1, 0, 1}, 3), first = row({-1, 0, -4, 0, 0, 0, 4, 0, 1}, 24);
+  cv::Mat smooth, xx, yy, xy;
+  const auto filter = [](const cv::Mat& from, cv::Mat& to, const cv::Mat& u, const cv::Mat& v) {
+    cv::sepFilter2D(from, to, CV_64F, u, v, {-1, -1}, 0, cv::BORDER_REFLECT_101);
+  };
+  filter(image, smooth, binomial, binomial);
+  filter(smooth, xx, second, mean);
+  filter(smooth, yy, mean, second);
+  filter(smooth, xy, first, first);
+  return cv::max(cv::Mat(-xx), cv::Mat(-yy)) + cv::abs(xy);
 }
 
 void check_same_as_judge(const cv::Mat& grey, double sigma, double least_curvature) {
@@ -151,25 +173,9 @@ TEST_CASE("no line is stronger than second differences around allow") {
   const GaussianKernels kernels = gaussian_kernels(sigma);
   const BendBound bound = bend_bound(kernels, 10);
   REQUIRE(bound.holds);
-  const auto row = [](std::initializer_list<double> taps, double divisor) {
-    cv::Mat kernel(1, static_cast<int>(taps.size()), CV_64F);
-    std::copy(taps.begin(), taps.end(), kernel.begin<double>());
-    return cv::Mat(kernel / divisor);
-  };
-  // On every pixel, the known ones two apart.
-  const cv::Mat binomial = row({1, 4, 6, 4, 1}, 16), second = row({1, 0, 0, 0, -2, 0, 0, 0, 1}, 16),
-                mean = row({1, 0, 1, 0, 1}, 3), first = row({-1, 0, -4, 0, 0, 0, 4, 0, 1}, 24);
   double nearest = 0;
   for (const cv::Mat& image : hard_images(sigma)) {
-    cv::Mat smooth, xx, yy, xy, lowest, highest;
-    const auto filter = [](const cv::Mat& from, cv::Mat& to, const cv::Mat& u, const cv::Mat& v) {
-      cv::sepFilter2D(from, to, CV_64F, u, v, {-1, -1}, 0, cv::BORDER_REFLECT_101);
-    };
-    filter(image, smooth, binomial, binomial);
-    filter(smooth, xx, second, mean);
-    filter(smooth, yy, mean, second);
-    filter(smooth, xy, first, first);
-    cv::Mat bend = cv::max(cv::Mat(-xx), cv::Mat(-yy)) + cv::abs(xy);
+    cv::Mat bend = exact_bend(image), lowest, highest;
     for (int v = 0; v < image.rows; ++v)
       for (int u = 0; u < image.cols; ++u)
         if (u % 2 != 0 || v % 2 != 0) bend.at<double>(v, u) = -1e9;
@@ -189,6 +195,36 @@ TEST_CASE("no line is stronger than second differences around allow") {
   }
   // And some come near it; the less near, the more the kernels smooth beyond the differences.
   CHECK(nearest > (sigma > 4 ? 0.3 : sigma > 3 ? 0.45 : 0.6));
+}
+
+TEST_CASE("bends in whole numbers fall short of the exact ones by no more than told") {
+  for (const cv::Mat& image : hard_images(2.5)) {
+    const int cell_columns =
+        2 * ((image.cols + BlockRejection::kWidth - 1) / BlockRejection::kWidth);
+    SmoothedGrid grid;
+    grid.resize(cell_columns, 5);
+    grid.smooth(view_of(image), 3);
+    CellPlane asked;
+    asked.resize(grid.cell_columns(), grid.cell_rows());
+    for (int row = 0; row < asked.rows(); ++row)
+      std::fill_n(asked.row(row), asked.columns(), std::uint16_t{1});
+    Bend bend;
+    bend.measure(grid, asked);
+    const cv::Mat exact = exact_bend(image);
+    double most_short = -1e9, most_over = -1e9;
+    for (int y = SmoothedGrid::kRows; y < 4 * SmoothedGrid::kRows; ++y)
+      for (int cell = 0; cell + 2 < cell_columns; ++cell) {
+        const int v = 3 * SmoothedGrid::kCellHeight + 2 * y;
+        double highest = 0;
+        for (int k = 0; k < SmoothedGrid::kColumns; ++k)
+          highest = std::max(highest, exact.at<double>(v, cell * SmoothedGrid::kCellWidth + 2 * k));
+        const double found = Bend::kUnit * bend.highest().row(y)[cell];
+        most_short = std::max(most_short, highest - found);
+        most_over = std::max(most_over, found - highest);
+      }
+    CHECK(most_short <= Bend::kShort);
+    CHECK(most_over <= Bend::kShort);
+  }
 }
 
 TEST_CASE("kernels that smooth too little for second differences are told") {
