@@ -42,19 +42,19 @@ std::vector<double> white_middles(const cv::Mat& grey) {
   return middles;
 }
 
-std::vector<double> columns_of(const Stripe& stripe, int rows) {
-  std::vector<double> columns(static_cast<std::size_t>(rows), -1);
+RowCentres row_centres(const Stripe& stripe, int rows) {
+  RowCentres centres(static_cast<std::size_t>(rows), {-1, -1});
   for (const StripeCentre& c : stripe.centres)
-    if (c.chosen) columns[static_cast<std::size_t>(std::lround(c.v))] = c.u;
-  return columns;
+    if (c.chosen) centres[static_cast<std::size_t>(std::lround(c.v))] = {c.u, c.v};
+  return centres;
 }
 
-double line_rms(const std::vector<double>& columns) {
+double line_rms(const RowCentres& centres) {
   std::vector<double> values;
-  for (std::size_t begin = 0; begin + 60 <= columns.size(); begin += 10) {
+  for (std::size_t begin = 0; begin + 60 <= centres.size(); begin += 10) {
     std::vector<cv::Point2d> points;
-    for (std::size_t v = begin; v < begin + 60; ++v)
-      if (columns[v] >= 0) points.push_back({static_cast<double>(v), columns[v]});
+    for (std::size_t row = begin; row < begin + 60; ++row)
+      if (centres[row].x >= 0) points.push_back({centres[row].y, centres[row].x});
     if (points.size() < 58) continue;
     double n = 0, x = 0, y = 0, xx = 0, xy = 0;
     for (const auto& p : points) n += 1, x += p.x, y += p.y, xx += p.x * p.x, xy += p.x * p.y;
@@ -69,13 +69,13 @@ double line_rms(const std::vector<double>& columns) {
   return values[values.size() / 2];
 }
 
-double share_found(const std::vector<double>& columns, const cv::Mat& grey, int margin) {
+double share_found(const RowCentres& centres, const cv::Mat& grey, int margin) {
   const std::vector<double> white = white_middles(grey);
   int shown = 0, found = 0;
   for (int v = margin; v < grey.rows - margin; ++v)
     if (white[v] >= 0) {
       ++shown;
-      found += columns[v] >= 0 && std::abs(columns[v] - white[v]) < 5;
+      found += centres[v].x >= 0 && std::abs(centres[v].x - white[v]) < 5;
     }
   return shown > 0 ? static_cast<double>(found) / shown : 0;
 }

@@ -19,15 +19,16 @@ std::vector<std::filesystem::path> images_in(const std::filesystem::path& folder
 // the stripe beyond doubt.
 std::vector<double> white_middles(const cv::Mat& grey);
 
-// Column of the chosen centre of each row, -1 for none.
-std::vector<double> columns_of(const Stripe& stripe, int rows);
+// One a row, u < 0 for none.
+using RowCentres = std::vector<cv::Point2d>;
+RowCentres row_centres(const Stripe& stripe, int rows);  // the chosen ones
 
-// Least-squares line through 60 rows; its rms, perpendicular, in the median over windows; px. -1
-// where no window has 58 centres.
-double line_rms(const std::vector<double>& columns);
+// Least-squares line through the centres of 60 rows, each where it is and not at its row's middle;
+// its rms, perpendicular, in the median over windows; px. -1 where no window has 58 centres.
+double line_rms(const RowCentres& centres);
 
 // Share of the rows that show the stripe, `margin` and more from the border, with a centre nearer
 // than 5 px to its middle.
-double share_found(const std::vector<double>& columns, const cv::Mat& grey, int margin);
+double share_found(const RowCentres& centres, const cv::Mat& grey, int margin);
 
 }  // namespace arcstart

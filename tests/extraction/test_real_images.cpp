@@ -30,9 +30,9 @@ Found find(const std::filesystem::path& path) {
   ExtractionSettings settings;
   settings.smooth_course = false;
   const Stripe stripe = StripeExtractor(settings).extract(view_of(grey));
-  const std::vector<double> columns = columns_of(stripe, grey.rows);
+  const RowCentres centres = row_centres(stripe, grey.rows);
   const int margin = static_cast<int>(std::ceil(2 * stripe.sigma)) + 1;
-  return {share_found(columns, grey, margin), line_rms(columns), stripe.sigma};
+  return {share_found(centres, grey, margin), line_rms(centres), stripe.sigma};
 }
 
 }  // namespace
