@@ -14,13 +14,13 @@ constexpr float kTurnCost = 3.0f;     // px per unit of 1 - cosine
 // What it costs to go on from p to q; side says on which side of p that is. Nothing below 0 is a
 // neighbour.
 float cost(const RidgePoint& p, const RidgePoint& q, int& side) {
-  const float du = q.u - p.u, dv = q.v - p.v;
+  const float du = q.u - p.u, dv = q.v - p.v, distance_squared = du * du + dv * dv;
+  if (distance_squared > kReach * kReach) return -1;
+  const float cosine = std::abs(p.normal_u * q.normal_u + p.normal_v * q.normal_v);
+  if (cosine < kLeastCosine) return -1;
   const float along = -du * p.normal_v + dv * p.normal_u;
   const float across = std::abs(du * p.normal_u + dv * p.normal_v);
-  const float cosine = std::abs(p.normal_u * q.normal_u + p.normal_v * q.normal_v);
-  const float distance_squared = du * du + dv * dv;
   side = along > 0 ? 1 : 0;
-  if (distance_squared > kReach * kReach || cosine < kLeastCosine) return -1;
   if (across > 0.3f + 0.7f * std::abs(along)) return -1;
   return std::sqrt(distance_squared) + kTurnCost * (1 - cosine);
 }
