@@ -12,108 +12,15 @@ constexpr float kBreakCost = 24;       // to leave a line for any other place
 constexpr int kNear = 4;               // columns within which a path goes on as on one line
 constexpr float kLongestNearJump = 6;  // px
 constexpr int kFar = 100;              // columns over which a line may be found again after a gap
-constexpr float kSteepest = 4;         // slope believed in
-constexpr int kMostOfLine = 6;         // candidates of a line
 constexpr float kSameLine = 4;         // px: nearer points of a column belong to one stripe
 
-// Logarithm of a width's ratio to the usual that is unlikely. A blob is wider; narrower is the
-// stripe itself where it is dim, but where it is bright that is spatter.
-constexpr float kWider = 0.6f, kNarrower = 1.2f, kNarrowerAndBright = 0.6f;
-
-using Weighted = std::pair<float, float>;  // value, weight
-
-float weighted_median(FrameVector<Weighted>& values) {
-  std::sort(values.begin(), values.end());
-  double total = 0, sum = 0;
-  for (const auto& [value, weight] : values) total += weight;
-  for (const auto& [value, weight] : values) {
-    sum += weight;
-    if (2 * sum >= total) return value;
-  }
-  return 0;
-}
-
 // By how much `to` lies off the line through both ends' slopes, px.
-template <class Candidate>
 float offset_from_line(const Candidate& from, const Candidate& to) {
   return std::abs(to.across - from.across -
                   0.5f * (from.slope + to.slope) * (to.along - from.along));
 }
 
 }  // namespace
-
-void Selector::collect(const std::vector<RidgePoint>& points, const FrameVector<Strand>& strands,
-                       bool along_rows) {
-  FrameVector<Candidate> all(memory_);
-  int lines = 0;
-  for (int c = 0; c < static_cast<int>(strands.size()); ++c)
-    for (const int i : strands[c].points) {
-      const RidgePoint& p = points[i];
-      Candidate candidate{};
-      candidate.point = i;
-      candidate.strand = c;
-      candidate.reflection = strands[c].reflection;
-      candidate.line = along_rows ? p.row : p.column;
-      candidate.along = along_rows ? p.v : p.u;
-      candidate.across = along_rows ? p.u : p.v;
-      const float normal_along = along_rows ? p.normal_v : p.normal_u;
-      const float normal_across = along_rows ? p.normal_u : p.normal_v;
-      candidate.slope = std::abs(normal_across) > 0.05f ? -normal_along / normal_across : 0;
-      candidate.slope = std::clamp(candidate.slope, -kSteepest, kSteepest);
-      candidate.curvature = p.curvature;
-      lines = std::max(lines, candidate.line + 1);
-      all.push_back(candidate);
-    }
-  std::sort(all.begin(), all.end(), [](const Candidate& a, const Candidate& b) {
-    if (a.line != b.line) return a.line < b.line;
-    return a.curvature != b.curvature ? a.curvature > b.curvature : a.point < b.point;
-  });
-  candidates_.clear();
-  line_begin_.assign(lines + 1, 0);
-  int of_line = 0;
-  for (std::size_t i = 0; i < all.size(); ++i) {
-    of_line = i > 0 && all[i].line == all[i - 1].line ? of_line + 1 : 0;
-    if (of_line >= kMostOfLine) continue;
-    candidates_.push_back(all[i]);
-    ++line_begin_[all[i].line + 1];
-  }
-  for (int line = 0; line < lines; ++line) line_begin_[line + 1] += line_begin_[line];
-
-  // A strand's first and last candidate along the image, whatever way it was followed.
-  FrameVector<int> first(strands.size(), -1, memory_), last(strands.size(), -1, memory_);
-  for (int i = 0; i < static_cast<int>(candidates_.size()); ++i) {
-    const int strand = candidates_[i].strand;
-    if (first[strand] < 0) first[strand] = i;
-    last[strand] = i;
-  }
-  for (const int i : first)
-    if (i >= 0) candidates_[i].starts_strand = true;
-  for (const int i : last)
-    if (i >= 0) candidates_[i].ends_strand = true;
-}
-
-void Selector::rate(const std::vector<float>& widths) {
-  FrameVector<Weighted> values(memory_);
-  for (const Candidate& c : candidates_) values.push_back({c.curvature, c.curvature});
-  const float usual_curvature = weighted_median(values);
-  values.clear();
-  for (const Candidate& c : candidates_)
-    if (widths[c.point] > 0)
-      values.push_back({widths[c.point], std::min(c.curvature, usual_curvature)});
-  const float usual_width = weighted_median(values);
-  for (Candidate& c : candidates_) {
-    float likeness = 0.7f;
-    if (widths[c.point] > 0) {
-      float difference = std::log(widths[c.point] / usual_width);
-      difference /= difference > 0                  ? kWider
-                    : c.curvature > usual_curvature ? kNarrowerAndBright
-                                                    : kNarrower;
-      likeness = std::exp(-0.5f * difference * difference);
-    }
-    const float strength = std::sqrt(std::min(1.0f, c.curvature / usual_curvature));
-    c.worth = c.reflection ? -0.1f : strength * likeness - 0.1f;
-  }
-}
 
 float Selector::leaving_cost(const Candidate& from, const Candidate& to) const {
   const float gap = to.along - from.along;
@@ -128,13 +35,13 @@ float Selector::leaving_cost(const Candidate& from, const Candidate& to) const {
 }
 
 FrameVector<int> Selector::best_path() const {
-  const int count = static_cast<int>(candidates_.size());
+  const int count = candidates_.count();
   FrameVector<float> score(count, memory_);
   FrameVector<int> previous(count, -1, memory_), strand_ends(memory_);
   int best = -1;  // of all in the lines before
-  const int lines = static_cast<int>(line_begin_.size()) - 1;
+  const int lines = candidates_.lines();
   for (int line = 0; line < lines; ++line) {
-    for (int i = line_begin_[line]; i < line_begin_[line + 1]; ++i) {
+    for (int i = candidates_.line_begin[line]; i < candidates_.line_begin[line + 1]; ++i) {
       const Candidate& here = candidates_[i];
       float highest = 0;
       const auto consider = [&](int from, float cost) {
@@ -142,7 +49,8 @@ FrameVector<int> Selector::best_path() const {
         highest = score[from] - cost;
         previous[i] = from;
       };
-      for (int j = line_begin_[std::max(0, line - kNear)]; j < line_begin_[line]; ++j)
+      for (int j = candidates_.line_begin[std::max(0, line - kNear)];
+           j < candidates_.line_begin[line]; ++j)
         consider(j, leaving_cost(candidates_[j], here));
       if (here.starts_strand)
         for (const int j : strand_ends)
@@ -151,7 +59,7 @@ FrameVector<int> Selector::best_path() const {
       if (best >= 0) consider(best, kBreakCost);
       score[i] = highest + here.worth;
     }
-    for (int i = line_begin_[line]; i < line_begin_[line + 1]; ++i) {
+    for (int i = candidates_.line_begin[line]; i < candidates_.line_begin[line + 1]; ++i) {
       if (best < 0 || score[i] > score[best]) best = i;
       if (candidates_[i].ends_strand) strand_ends.push_back(i);
     }
@@ -172,12 +80,12 @@ FrameVector<int> Selector::rest_of_strand(int candidate, int step, int reach) co
   const Candidate& from = candidates_[candidate];
   FrameVector<int> rest(memory_);
   float across = from.across;
-  const int lines = static_cast<int>(line_begin_.size()) - 1;
+  const int lines = candidates_.lines();
   for (int k = 1; k <= reach + 1; ++k) {
     const int line = from.line + step * k;
     if (line < 0 || line >= lines) break;
     int nearest = -1;
-    for (int i = line_begin_[line]; i < line_begin_[line + 1]; ++i)
+    for (int i = candidates_.line_begin[line]; i < candidates_.line_begin[line + 1]; ++i)
       if (candidates_[i].strand == from.strand &&
           (nearest < 0 || std::abs(candidates_[i].across - across) <
                               std::abs(candidates_[nearest].across - across)))
@@ -193,7 +101,7 @@ FrameVector<int> Selector::rest_of_strand(int candidate, int step, int reach) co
 void Selector::split_path(const FrameVector<int>& path, const SelectionSettings& settings,
                           Selection& selection) {
   const int reach = static_cast<int>(settings.junction_reach);
-  chosen_.assign(line_begin_.size() - 1, -1);
+  chosen_.assign(candidates_.lines(), -1);
   for (std::size_t begin = 0; begin < path.size();) {
     std::size_t end = begin + 1;
     while (end < path.size()) {
@@ -223,8 +131,8 @@ void Selector::split_path(const FrameVector<int>& path, const SelectionSettings&
 
 void Selector::add_second_candidates(const SelectionSettings& settings, Selection& selection) {
   FrameVector<std::pair<int, int>> seconds(memory_);  // strand, candidate
-  for (std::size_t line = 0; line + 1 < line_begin_.size(); ++line)
-    for (int i = line_begin_[line]; i < line_begin_[line + 1]; ++i) {
+  for (std::size_t line = 0; line + 1 < candidates_.line_begin.size(); ++line)
+    for (int i = candidates_.line_begin[line]; i < candidates_.line_begin[line + 1]; ++i) {
       if (i == chosen_[line]) continue;
       if (chosen_[line] >= 0 &&
           std::abs(candidates_[i].across - candidates_[chosen_[line]].across) <= kSameLine)
@@ -266,8 +174,7 @@ void Selector::select(const std::vector<RidgePoint>& points, const std::vector<C
   FrameVector<Strand> strands =
       cut_at_junctions(points, chains, sight, settings.junction_reach, memory);
   mark_reflections(points, sight, strands);
-  collect(points, strands, selection.along_rows);
-  rate(widths);
+  collect_candidates(points, strands, widths, selection.along_rows, memory, candidates_);
   split_path(best_path(), settings, selection);
   add_second_candidates(settings, selection);
 }

@@ -4,6 +4,7 @@
 
 #include <vector>
 
+#include "services/extraction/candidates.hpp"
 #include "services/extraction/linking.hpp"
 #include "services/extraction/reflections.hpp"
 #include "services/extraction/ridge.hpp"
@@ -52,17 +53,6 @@ class Selector {
               Selection& selection, Memory memory = heap());
 
  private:
-  struct Candidate {
-    int point, strand;
-    int line;             // column, or row where along_rows
-    float along, across;  // px, along and across the image's main direction of the stripe
-    float slope;          // d across / d along
-    float curvature, worth;
-    bool starts_strand, ends_strand, reflection;
-  };
-  void collect(const std::vector<RidgePoint>& points, const FrameVector<Strand>& strands,
-               bool along_rows);
-  void rate(const std::vector<float>& widths);
   FrameVector<int> best_path() const;
   float leaving_cost(const Candidate& from, const Candidate& to) const;
   // The path goes on, far across, on another stripe.
@@ -75,8 +65,7 @@ class Selector {
   void add_second_candidates(const SelectionSettings& settings, Selection& selection);
 
   Memory memory_ = heap();
-  std::vector<Candidate> candidates_;  // by line, the strongest of a line first
-  std::vector<int> line_begin_;
+  Candidates candidates_;
   std::vector<int> chosen_;  // of each line, -1 for none
 };
 

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "services/extraction/finer_centres.hpp"
 #include "services/extraction/stripe_quality.hpp"
 
 namespace arcstart {
@@ -202,32 +203,7 @@ void StripeExtractor::measure_at(const GreyImage& image, double sigma) {
   detector_.detect_about(image, measuring_kernels_,
                          settings_.weakest_share * strong_curvature(sigma), border(), about_, reach,
                          measured_);
-  const auto line = [&](const RidgePoint& p) { return selection_.along_rows ? p.row : p.column; };
-  const auto across = [&](const RidgePoint& p) { return selection_.along_rows ? p.u : p.v; };
-  const auto before = [&](const RidgePoint& a, const RidgePoint& b) {
-    return line(a) != line(b) ? line(a) < line(b) : across(a) < across(b);
-  };
-  std::sort(measured_.begin(), measured_.end(), before);
-  for (const Branch& branch : selection_.branches) {
-    if (!branch.chosen) continue;
-    for (const int i : branch.points) {
-      const RidgePoint& p = points_[i];
-      const auto after = std::lower_bound(measured_.begin(), measured_.end(), p, before);
-      const RidgePoint* nearest = nullptr;
-      const auto consider = [&](const RidgePoint& q) {
-        const float distance = std::abs(across(q) - across(p));
-        if (line(q) == line(p) && distance <= static_cast<float>(reach) &&
-            (nearest == nullptr || distance < std::abs(across(*nearest) - across(p))))
-          nearest = &q;
-      };
-      if (after != measured_.end()) consider(*after);
-      if (after != measured_.begin()) consider(*(after - 1));
-      if (nearest != nullptr)
-        finer_[i] = {nearest->u, nearest->v,
-                     static_cast<float>(centre_deviation(nearest->curvature, sigma, noise_)),
-                     static_cast<float>(sigma)};
-    }
-  }
+  take_finer(points_, selection_, reach, sigma, noise_, measured_, finer_);
 }
 
 int StripeExtractor::border() const {
