@@ -7,6 +7,7 @@ namespace arcstart {
 namespace {
 
 constexpr std::size_t kLongestScan = 100'000;  // stripes: a seq beyond is damage, not a scan
+constexpr std::size_t kUsualPoints = 1 << 17;  // room from the begin: moved in no profile's time
 constexpr double kFarthest = 1e5;              // mm: a point farther away is damage, too
 
 // A whole image without a stripe tells that nothing was there; one that was cut short, or of which
@@ -32,6 +33,11 @@ float step_at(const profile_t& profile, int i) {
 }
 
 }  // namespace
+
+CloudBuilder::CloudBuilder(std::int64_t first_seq) : next_seq_(first_seq) {
+  cloud_.points.reserve(kUsualPoints);
+  cloud_.origins.reserve(kUsualPoints);
+}
 
 void CloudBuilder::miss_until(std::int64_t seq) {
   for (; next_seq_ < seq && cloud_.stripes.size() < kLongestScan; ++next_seq_)

@@ -12,7 +12,7 @@ class CloudBuilder {
  public:
   // first_seq: of the scan's first image, -1 where that is not known: then as the first profile's
   // place in the scan tells it.
-  explicit CloudBuilder(std::int64_t first_seq) : next_seq_(first_seq) {}
+  explicit CloudBuilder(std::int64_t first_seq);
 
   // In order of seq. A kMissing stripe stands for each that was left out.
   void add(const profile_t& profile);

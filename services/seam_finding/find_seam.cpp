@@ -14,7 +14,7 @@ namespace arcstart {
 namespace {
 
 constexpr double kDegree = M_PI / 180;
-constexpr std::size_t kMostBackground = 8192;  // points; of more so many are looked at
+constexpr std::size_t kMostBackground = 2048;  // points; of more so many are looked at
 constexpr double kContinues = 0.25;  // share of a face's points that lie in its plane as background
 
 // A face in whose plane the background goes on is background that its scan did not reach, or let
@@ -96,10 +96,10 @@ SeamResult find_seam(const ScanCloud& scan, const Background& background,
   divide(scan, background, division);
   ThinnedCloud thinned;
   thin(scan, thinned);
-  return find_seam(scan, std::move(division), thinned, settings, seed);
+  return find_seam(scan, division, thinned, settings, seed);
 }
 
-SeamResult find_seam(const ScanCloud& scan, Division division, const ThinnedCloud& fewer,
+SeamResult find_seam(const ScanCloud& scan, const Division& division, const ThinnedCloud& fewer,
                      const SeamFindingSettings& settings, std::uint64_t seed) {
   SeamResult result;
   // The paper's way counts all points.
@@ -130,7 +130,7 @@ SeamResult find_seam(const ScanCloud& scan, Division division, const ThinnedClou
     choose_seam(result, scan, thinned, searched.left, std::move(faces), scales, settings);
   else if (result.reason.empty())
     refuse(result, "no workpiece: what is left only continues the background");
-  result.background = std::move(division.background);
+  result.background = division.background;
   return result;
 }
 

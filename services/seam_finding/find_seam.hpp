@@ -62,7 +62,7 @@ void divide(const ScanCloud& scan, const Background& background, Division& divis
 SeamResult find_seam(const ScanCloud& scan, const Background& background,
                      const SeamFindingSettings& settings, std::uint64_t seed);
 // The same of a scan that is divided and thinned.
-SeamResult find_seam(const ScanCloud& scan, Division division, const ThinnedCloud& thinned,
+SeamResult find_seam(const ScanCloud& scan, const Division& division, const ThinnedCloud& thinned,
                      const SeamFindingSettings& settings, std::uint64_t seed);
 
 // Takes nothing for background.

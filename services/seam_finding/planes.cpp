@@ -182,7 +182,9 @@ class SuggestedPlanes {
         step_(std::max<std::size_t>(1, (sought.points.size() + kJury - 1) / kJury)),
         sample_(every(step_, 0, sought.points)),
         left_(sample_),
-        pieces_(sample_, search.connection * std::sqrt(static_cast<double>(step_))) {
+        pieces_(step_ == 1
+                    ? sought.pieces
+                    : Pieces(sample_, search.connection * std::sqrt(static_cast<double>(step_)))) {
     least_ = std::max(2, search.least_points / static_cast<int>(step_));
     for (std::size_t i = 0; i < planes_.size(); ++i)
       offer(left_.count_near(planes_[i], search.tolerance, 0, left_.size()), i);
@@ -241,7 +243,7 @@ double spacing_of(const ScanCloud& cloud, const Face& face, double connection) {
   for (const int i : face.points) points.push_back(cloud.points[i]);
   const NeighbourGrid grid(points, connection);
   std::vector<double> distances, fourth;
-  for (std::size_t i = 0; i < points.size(); i += 1 + points.size() / 64) {
+  for (std::size_t i = 0; i < points.size(); i += 1 + points.size() / 32) {
     grid.nearest_distances(static_cast<int>(i), 4, distances);
     fourth.push_back(distances.size() == 4 ? distances.back() : connection);
   }

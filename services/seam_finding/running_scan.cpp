@@ -25,12 +25,12 @@ void RunningScan::take(const profile_t& profile, const StoredBackground* backgro
   // What comes late, or twice, or beyond all bounds is left to finish().
   if (!seqs_.empty() && profile.seq <= seqs_.back()) return;
   if (builder_->cloud().size() + profile.count > kMostPoints) return;
-  if (background_id_ == 0 && division_.size() == 0) background_id_ = id_of(background);
+  if (background_id_ == 0 && prepared_.division.size() == 0) background_id_ = id_of(background);
   builder_->add(profile);
-  thin(builder_->cloud(), thinned_);
+  thin(builder_->cloud(), prepared_.thinned);
   seqs_.push_back(profile.seq);
   if (background && background->scan_id() == background_id_)
-    divide(builder_->cloud(), background->model(), division_);
+    divide(builder_->cloud(), background->model(), prepared_.division);
 }
 
 bool RunningScan::is_ready(const CollectedScan& scan) const {
@@ -43,16 +43,17 @@ bool RunningScan::is_ready(const CollectedScan& scan) const {
                     [](std::int64_t seq, const profile_t& profile) { return seq == profile.seq; });
 }
 
-PreparedScan RunningScan::finish(const CollectedScan& scan, const StoredBackground* background) {
+const PreparedScan& RunningScan::finish(const CollectedScan& scan,
+                                        const StoredBackground* background) {
   was_ready_ = is_ready(scan);
-  if (!was_ready_) return prepare(scan, background);
+  if (!was_ready_) return prepared_ = prepare(scan, background);
   builder_->miss_until(scan.state.last_seq + 1);
-  thin(builder_->cloud(), thinned_);
-  PreparedScan prepared{builder_->take_cloud(), std::move(division_), std::move(thinned_)};
+  thin(builder_->cloud(), prepared_.thinned);
+  prepared_.cloud = builder_->take_cloud();
   builder_.reset();
-  if (!background || background->scan_id() != background_id_) prepared.division = {};
-  if (background) divide(prepared.cloud, background->model(), prepared.division);
-  return prepared;
+  if (!background || background->scan_id() != background_id_) prepared_.division = {};
+  if (background) divide(prepared_.cloud, background->model(), prepared_.division);
+  return prepared_;
 }
 
 }  // namespace arcstart

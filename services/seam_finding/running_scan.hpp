@@ -20,8 +20,8 @@ class RunningScan {
   void take(const profile_t& profile, const StoredBackground* background);
 
   // Of the scan as it was collected. Ready at once where the profiles came in their order, all that
-  // were taken are in it, and the background is still the same.
-  PreparedScan finish(const CollectedScan& scan, const StoredBackground* background);
+  // were taken are in it, and the background is still the same. Valid until the next take().
+  const PreparedScan& finish(const CollectedScan& scan, const StoredBackground* background);
 
   bool was_ready() const { return was_ready_; }  // of the last finish()
 
@@ -31,8 +31,7 @@ class RunningScan {
   std::int64_t scan_id_ = 0, run_id_ = 0;
   std::int64_t background_id_ = 0;  // 0 while there was none
   std::optional<CloudBuilder> builder_;
-  Division division_;
-  ThinnedCloud thinned_;
+  PreparedScan prepared_;  // but for the cloud, until it is finished
   std::int64_t first_seq_ = 0;
   std::vector<std::int64_t> seqs_;  // taken
   bool was_ready_ = false;

@@ -145,7 +145,7 @@ PreparedScan prepare(const CollectedScan& scan, const StoredBackground* backgrou
   return prepared;
 }
 
-seam_t answer_workpiece(const CollectedScan& scan, PreparedScan prepared,
+seam_t answer_workpiece(const CollectedScan& scan, const PreparedScan& prepared,
                         const StoredBackground* background, const SeamFindingSettings& settings,
                         const Calibration* calibration) {
   seam_t seam = empty_answer(scan);
@@ -174,7 +174,7 @@ seam_t answer_workpiece(const CollectedScan& scan, PreparedScan prepared,
   seam.background_scan_id = background->scan_id();
   seam.remark = balance.losses();
   if (scan.state.end_reason == "camera lost") seam.remark += "the camera was lost in the scan; ";
-  fill_in(seam, find_seam(cloud, std::move(prepared.division), prepared.thinned, settings,
+  fill_in(seam, find_seam(cloud, prepared.division, prepared.thinned, settings,
                           static_cast<std::uint64_t>(scan.state.scan_id)));
   fill_in_systematic(seam, scan, calibration);
   return seam;

@@ -62,7 +62,7 @@ PreparedScan prepare(const CollectedScan& scan, const StoredBackground* backgrou
 
 // The answer to a workpiece scan; background, calibration of the scan: nullptr where there is none.
 // prepared: by that background.
-seam_t answer_workpiece(const CollectedScan& scan, PreparedScan prepared,
+seam_t answer_workpiece(const CollectedScan& scan, const PreparedScan& prepared,
                         const StoredBackground* background, const SeamFindingSettings& settings,
                         const Calibration* calibration = nullptr);
 seam_t answer_workpiece(const CollectedScan& scan, const StoredBackground* background,

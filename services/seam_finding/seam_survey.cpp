@@ -31,11 +31,15 @@ std::vector<SurveyPlace> survey_seam(const ScanCloud& cloud,
     return cloud.organised() ? cloud.origins[i].stripe
                              : static_cast<int>(std::floor((along - begin) / spacing_mm));
   };
+  Seen* last = nullptr;  // points of a stripe follow each other
+  int last_place = 0;
   for (int j = 0; j < 2; ++j)
     for (const int i : plates[j].points) {
       const double along = line.along(cloud.points[i]), away = line.distance(cloud.points[i]);
       if (away < kFrom || away > kTo || cloud.origins[i].segment_end) continue;
-      Seen& seen = by_stripe[key(i, along)];
+      const int place = key(i, along);
+      if (last == nullptr || place != last_place) last = &by_stripe[place], last_place = place;
+      Seen& seen = *last;
       seen.height[j] += plates[j].plane.signed_distance(cloud.points[i]);
       seen.along += along;
       ++seen.count[j];
