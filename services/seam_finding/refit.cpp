@@ -13,7 +13,8 @@ namespace {
 constexpr int kLeastPoints = 20;
 constexpr std::size_t kSoughtAgain =
     4096;                              // of more points the outliers are sought in one pass alone
-constexpr std::size_t kEnough = 4096;  // points of a plate, evenly taken
+constexpr std::size_t kEnough = 4096;  // points of a plate; of more, means over so many neighbours
+                                       // of a stripe that it is as few
 // The stripe's centre is drawn aside so near the other plate; mm.
 constexpr double kBendWidth = 1.2;
 constexpr double kOverhang = 3;  // beyond the seam's ends; mm
@@ -81,9 +82,16 @@ Plane fitted(const ScanCloud& cloud, const Joint& joint, int plate, const std::v
   const Plane& plane = joint.plates[plate].plane;
   if (static_cast<int>(chosen.size()) < kLeastPoints) return plane;  // the face's own is better
   std::vector<Eigen::Vector3d> points;
-  const std::size_t every = 1 + chosen.size() / kEnough;
-  points.reserve(chosen.size() / every + 1);
-  for (std::size_t i = 0; i < chosen.size(); i += every) points.push_back(cloud.points[chosen[i]]);
+  const std::size_t together = 1 + chosen.size() / kEnough;
+  points.reserve(chosen.size() / together + cloud.stripes.size() + 1);
+  for (std::size_t first = 0, last = 0; first < chosen.size(); first = last) {
+    Eigen::Vector3d sum = Eigen::Vector3d::Zero();
+    for (last = first; last < std::min(first + together, chosen.size()) &&
+                       cloud.origins[chosen[last]].stripe == cloud.origins[chosen[first]].stripe;
+         ++last)
+      sum += cloud.points[chosen[last]];
+    points.push_back(sum / static_cast<double>(last - first));
+  }
   return robust_plane(points, joint.line, plane, noise);
 }
 
