@@ -5,6 +5,8 @@
 #include <utility>
 #include <vector>
 
+#include "services/seam_finding/plate_extent.hpp"
+
 namespace arcstart {
 namespace {
 
@@ -77,6 +79,16 @@ struct PlateEnd {
   }
 };
 
+// By what is seen on the plate and past it, counted along its border; `on_seam` counts along the
+// seam.
+template <class OnSeam>
+void narrow(PlateEnd& end, const PlateExtent& extent, OnSeam&& on_seam) {
+  const double low = std::isfinite(extent.on) ? std::max(end.low, on_seam(extent.on)) : end.low;
+  const double high =
+      std::isfinite(extent.past) ? std::min(end.high, on_seam(extent.past)) : end.high;
+  if (low < high) end.low = low, end.high = high;
+}
+
 // Of two plates the one that ends first, counted from within.
 void first_of(const PlateEnd& a, const PlateEnd& b, double& mean, double& variance) {
   const double low = std::min(a.low, b.low), high = std::min(a.high, b.high);
@@ -119,15 +131,23 @@ SeamEnd find_flat_end(const ScanCloud& cloud, const Joint& joint,
                        false};
     const double from = border.along(joint.line.at(outward * plate_end.low)) - outward * kMargin,
                  to = border.along(joint.line.at(outward * plate_end.high)) + outward * kMargin;
-    auto edge =
-        find_edge(cloud, joint.plates[j], joint.plates[1 - j], border, side,
-                  {std::min(from, to), std::max(from, to), search.tolerance, search.shortening_px});
+    EdgeSearch edge_search;
+    edge_search.from = std::min(from, to), edge_search.to = std::max(from, to);
+    edge_search.tolerance = search.tolerance;
+    edge_search.noise = search.noise;
+    edge_search.shortening_px = search.shortening_px;
+    auto edge = find_edge(cloud, joint.plates[j], joint.plates[1 - j], border, side, edge_search);
     if (edge) {
       edge->along = joint.line.along(border.at(edge->along));
       edge->variance = kEdgeFactor * edge->variance + kEdgeFloor * kEdgeFloor;
       const double half = std::sqrt(3 * edge->variance);  // of as wide an even distribution
       plate_end = {outward * edge->along - half, outward * edge->along + half, true};
       edges.push_back(*edge);
+    } else {
+      narrow(plate_end,
+             plate_extent(cloud, joint.plates[j], joint.plates[1 - j], border, side,
+                          border.along(joint.line.at(end.along)), search),
+             [&](double place) { return outward * joint.line.along(border.at(outward * place)); });
     }
     ends.push_back(plate_end);
   }
