@@ -52,8 +52,6 @@ void SeamRow::add(int seed, const seam_t& seam, const std::optional<truth_t>& tr
     ++flagged_;
     return;
   }
-  const bool silent = error.start_mm > kSilent && seam.start_visibility == seam_t::SEEN;
-  silent_ += silent;
   start_.push_back(error.start_mm);
   lateral_.push_back(error.lateral_mm);
   direction_.push_back(error.direction_deg);
@@ -64,6 +62,10 @@ void SeamRow::add(int seed, const seam_t& seam, const std::optional<truth_t>& tr
     ++covered_;
     within_ += std::abs(error.along_mm) <= 2 * deviation;
   }
+  // Neither is the start said to be hidden, nor the error by the deviation given.
+  const bool silent = error.start_mm > kSilent && seam.start_visibility == seam_t::SEEN &&
+                      !(std::abs(error.along_mm) <= 2 * deviation);
+  silent_ += silent;
   if (error.wrong || error.start_mm > tell_mm)
     fmt::print("  {} seed {}: start {:.3f} mm (along {:.3f}, deviation {:.3f}{}{}), {}{}\n", name_,
                seed, error.start_mm, error.along_mm, deviation, start_hidden ? ", hidden" : "",

@@ -17,7 +17,8 @@ class SeamRow {
   // truth: nothing where there is no seam, so that every answer is wrong. Prints seeds that are
   // wrong or not answered, and those whose start is off by more than `tell_mm`.
   // start_hidden: of the truth. An answer that says so too is counted as flagged, and its bound is
-  // no start; an error over 1 mm of a start that is said to be seen is silent.
+  // no start. An error over 1 mm of a start that is said to be seen is silent, where it is more
+  // than two of the deviations given.
   void add(int seed, const seam_t& seam, const std::optional<truth_t>& truth, double tell_mm,
            bool start_hidden = false);
 
