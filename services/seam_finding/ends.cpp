@@ -61,7 +61,7 @@ void narrow(Bracket& bracket, const PlateExtent& extent, double margin, double o
     bracket.inner = outward * inner, bracket.outer = outward * outer;
 }
 
-// A lone stripe may end for another reason than the plate's edge.
+// Stripes may end for another reason than the plate's edge: in a shadow, or behind something.
 bool possible(const PlateEdge& edge, const PlateExtent& extent, double outward) {
   const double place = outward * edge.along, allowed = kSameEdge * std::sqrt(edge.variance);
   return place > extent.on - allowed && place < extent.past + allowed;
@@ -162,7 +162,7 @@ SeamEnd find_end(const ScanCloud& cloud, const std::array<JointPlate, 2>& plates
     edges[j] = find_edge(cloud, plates[j], plates[1 - j], line, side, edge_search);
   }
   for (int j = 0; j < 2; ++j) {
-    if ((edges[j] && edges[j]->stripes > 1) || brackets[j].runs_on) continue;
+    if (!edges[j] && brackets[j].runs_on) continue;
     const PlateExtent extent =
         plate_extent(cloud, plates[j], plates[1 - j], line, side, end.along, search);
     if (edges[j] && !possible(*edges[j], extent, outward)) edges[j].reset();
