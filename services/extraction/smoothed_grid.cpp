@@ -1,6 +1,7 @@
 #include "services/extraction/smoothed_grid.hpp"
 
 #include <algorithm>
+#include <bit>
 
 #include "services/extraction/lanes.hpp"
 
@@ -42,7 +43,8 @@ ARCSTART_INLINE_BODY void smooth_down(const Smoothing& s, const std::uint8_t* co
   Bytes highest{}, lowest_lacks{};
 #pragma GCC unroll 16
   for (int k = 0; k < kRowsUnder; ++k) {
-    const auto pairs = load_as<Values>(rows[k] + u);
+    static_assert(std::endian::native == std::endian::little);
+    const auto pairs = load_as<Values>(rows[k] + u);  // the even column low
     even[k] = pairs & 0xff;
     odd[k] = pairs >> 8;
     if (k >= kReach && k < kReach + SmoothedGrid::kCellHeight) {
