@@ -79,7 +79,7 @@ ARCSTART_INLINE_BODY void smooth_rest_down(const Smoothing& s, int begin) {
 }
 
 // As far as the cells go, and two columns to either side.
-ARCSTART_INLINE_BODY void mirror_ends(const Smoothing& s) {
+void mirror_ends(const Smoothing& s) {
   for (int i = 0; i < kRows; ++i) {
     const auto value = [&](int u) -> std::uint16_t& {
       return ((u & 1) != 0 ? s.odd : s.even)[i * s.line_stride + (u >> 1)];
