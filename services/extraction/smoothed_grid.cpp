@@ -78,15 +78,19 @@ ARCSTART_INLINE_BODY void smooth_rest_down(const Smoothing& s, int begin) {
   smooth_down<kFloats>(s, rows, begin);
 }
 
+std::uint16_t& column_of_line(const Smoothing& s, int line, int u) {
+  std::uint16_t* columns = (u & 1) != 0 ? s.odd : s.even;
+  return columns[line * s.line_stride + (u >> 1)];
+}
+
 // As far as the cells go, and two columns to either side.
 void mirror_ends(const Smoothing& s) {
-  for (int i = 0; i < kRows; ++i) {
-    const auto value = [&](int u) -> std::uint16_t& {
-      return ((u & 1) != 0 ? s.odd : s.even)[i * s.line_stride + (u >> 1)];
-    };
-    for (const int u : {-2, -1}) value(u) = value(reflect_101(u, s.width));
-    for (int u = s.width; u < s.cell_columns * SmoothedGrid::kCellWidth + 2; ++u)
-      value(u) = value(reflect_101(u, s.width));
+  const int end = s.cell_columns * SmoothedGrid::kCellWidth + 2;
+  for (int line = 0; line < kRows; ++line) {
+    for (const int u : {-2, -1})
+      column_of_line(s, line, u) = column_of_line(s, line, reflect_101(u, s.width));
+    for (int u = s.width; u < end; ++u)
+      column_of_line(s, line, u) = column_of_line(s, line, reflect_101(u, s.width));
   }
 }
 
