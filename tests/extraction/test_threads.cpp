@@ -51,6 +51,7 @@ TEST_CASE("ridge points are the same bytes for any number of threads") {
       several.detect_lines(view_of(grey), kernels, 0.25, strong, 2, points);
       REQUIRE(points.size() == expected.size());
       static_assert(sizeof(RidgePoint) == 7 * 4, "without gaps");
+      if (points.empty()) continue;
       CHECK(std::memcmp(points.data(), expected.data(), points.size() * sizeof(RidgePoint)) == 0);
       seen += points.size();
     }
