@@ -29,6 +29,7 @@ constexpr double kCutSlant = 0.15;  // of a cut, mm along the seam for each mm o
 constexpr double kCutNoise = 0.07;  // of a cut's place along the seam; mm
 constexpr double kBeam = 0.5;  // of a point's noise across its surface what it is along the seam
 constexpr double kChord = 3;   // over which a stripe's direction is taken; mm
+constexpr std::size_t kSteps = 64;    // tell the usual one
 constexpr double kLeastSight = 0.1;   // sine of the angle between a line of sight and a plate
 constexpr double kLeastSlant = 0.05;  // of a stripe, mm along the seam for each mm of its length
 
@@ -54,7 +55,7 @@ Eigen::Vector3d direction_at_end(const ScanCloud& cloud, const std::vector<int>&
 // The usual way between the points that are left of a stripe.
 double thinned_step(const ScanCloud& cloud, const std::vector<int>& run) {
   std::vector<double> steps;
-  for (std::size_t i = 1; i < run.size(); ++i)
+  for (std::size_t i = 1; i < run.size(); i += 1 + run.size() / kSteps)
     steps.push_back((cloud.points[run[i]] - cloud.points[run[i - 1]]).norm());
   const auto middle = steps.begin() + static_cast<std::ptrdiff_t>(steps.size() / 2);
   std::nth_element(steps.begin(), middle, steps.end());

@@ -13,7 +13,7 @@ constexpr double kLeastMotion = 5;  // mm
 constexpr int kSamples = 400;       // places where the points' distance is measured
 constexpr int kNoisePlaces = 200;   // and their noise
 constexpr int kNeighbours = 8;
-constexpr int kMostSteps = 8192;       // of a larger cloud so many serve
+constexpr int kMostSteps = 2048;       // of a larger cloud so many serve
 constexpr int kNeighbourhoods = 2500;  // points that serve, of a cloud of more than twice as many
 constexpr std::size_t kCrowd = 64;     // points of a cell that are looked at for the noise
 

@@ -45,6 +45,12 @@ std::vector<SurveyPlace> survey_seam(const ScanCloud& cloud,
       ++seen.count[j];
     }
   for (int i = 0; i < cloud.size(); ++i) {
+    const ScanStripe* stripe =
+        cloud.organised() ? &cloud.stripes[cloud.origins[i].stripe] : nullptr;
+    if (stripe && i == stripe->first && !by_stripe.contains(cloud.origins[i].stripe)) {
+      i += stripe->count - 1;
+      continue;
+    }
     const Eigen::Vector3d& point = cloud.points[i];
     if (plates[0].plane.signed_distance(point) < kTackHeight ||
         plates[1].plane.signed_distance(point) < kTackHeight || line.distance(point) > kTackReach)
