@@ -29,6 +29,15 @@ class NeighbourGrid {
   // Calls visit(index) for every occupied cell that touches this one, itself included.
   template <class Visit>
   void for_each_around(const Cell& middle, Visit visit) const {
+    if (!box_.empty()) {
+      const Cell from = (middle - Cell::Ones()).cwiseMax(low_) - low_;
+      const Cell to = (middle + Cell::Ones()).cwiseMin(low_ + size_ - Cell::Ones()) - low_;
+      for (int x = from.x(); x <= to.x(); ++x)
+        for (int y = from.y(); y <= to.y(); ++y)
+          for (int z = from.z(); z <= to.z(); ++z)
+            if (const int i = box_[(x * size_.y() + y) * size_.z() + z]; i >= 0) visit(i);
+      return;
+    }
     for (int x = -1; x <= 1; ++x)
       for (int y = -1; y <= 1; ++y)
         for (int z = -1; z <= 1; ++z)
