@@ -50,7 +50,7 @@ Bracket bracket_of(const Stations& stations, int plate, double end, double outwa
 // By what is seen on the plate and past it. A plate that is seen beyond the stripes which do not
 // show it at the seam was only hidden there.
 void narrow(Bracket& bracket, const PlateExtent& extent, double margin, double outward) {
-  const double inner = std::max(outward * bracket.inner, extent.on);
+  const double inner = std::isfinite(extent.on) ? extent.on : outward * bracket.inner;
   double outer = outward * bracket.outer + margin;
   if (extent.on > outer) {
     outer = extent.past;
@@ -59,6 +59,17 @@ void narrow(Bracket& bracket, const PlateExtent& extent, double margin, double o
   outer = std::min(outer, extent.past);
   if (inner < outer && std::isfinite(outer))
     bracket.inner = outward * inner, bracket.outer = outward * outer;
+}
+
+// Of the stripes that show the other plate, by which their crossings are known.
+StripeCrossings crossings_of(const ScanCloud& cloud, const Stations& stations, int plate) {
+  StripeCrossings crossings{std::vector<std::optional<double>>(cloud.stripes.size()),
+                            stations.slant[plate]};
+  for (const Station& station : stations.list)
+    if (station.stripe >= 0 && station.known &&
+        station.nearest[1 - plate] <= stations.near[1 - plate])
+      crossings.along[station.stripe] = station.along;
+  return crossings;
 }
 
 // Stripes may end for another reason than the plate's edge: in a shadow, or behind something.
@@ -163,8 +174,8 @@ SeamEnd find_end(const ScanCloud& cloud, const std::array<JointPlate, 2>& plates
   }
   for (int j = 0; j < 2; ++j) {
     if (!edges[j] && brackets[j].runs_on) continue;
-    const PlateExtent extent =
-        plate_extent(cloud, plates[j], plates[1 - j], line, side, end.along, search);
+    const PlateExtent extent = plate_extent(cloud, plates[j], plates[1 - j], line, side, end.along,
+                                            search, crossings_of(cloud, stations, j));
     if (edges[j] && !possible(*edges[j], extent, outward)) edges[j].reset();
     // Where stripes cross the one plate's edge, they may leave this one unseen.
     const double slant = edges[1 - j] ? std::max(0.0, outward * stations.slant[j]) : 0;

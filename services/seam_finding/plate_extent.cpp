@@ -13,8 +13,9 @@ constexpr double kBeam = 0.5;    // of a point's noise across its surface what i
 constexpr double kNearSeam = 3;  // where it may be the joint's other plate that is seen; mm
 constexpr double kFarEdge = 3;   // and where the plate's far edge is passed; mm
 constexpr int kLeastRun = 3;     // points in a row that chance does not put on a plate or behind it
-constexpr double kStep = 1.5;    // along the seam between neighbours in a row; mm
-constexpr double kAround = 40;   // stripes so near the end tell of it; mm
+constexpr double kAskew = 5;   // light and sight meet the plane so far from each other, at most; mm
+constexpr double kStep = 1.5;  // along the seam between neighbours in a row; mm
+constexpr double kAround = 40;  // stripes so near the end tell of it; mm
 
 // The most of a value over runs of neighbours in one segment; of each the others bear it out.
 class MostOfRuns {
@@ -41,7 +42,8 @@ class MostOfRuns {
 }  // namespace
 
 PlateExtent plate_extent(const ScanCloud& cloud, const JointPlate& plate, const JointPlate& other,
-                         const Line& line, SeamSide side, double near, const EndSearch& search) {
+                         const Line& line, SeamSide side, double near, const EndSearch& search,
+                         const StripeCrossings& crossings) {
   PlateExtent extent;
   if (!cloud.organised()) return extent;
   const double outward = side == SeamSide::kEnd ? 1 : -1;
@@ -56,8 +58,9 @@ PlateExtent plate_extent(const ScanCloud& cloud, const JointPlate& plate, const 
         on.add(i, outward * line.along(cloud.points[i]) - kSquareCut * r - slack);
   extent.on = on.most();
 
-  MostOfRuns past(cloud);
-  for (const ScanStripe& stripe : cloud.stripes) {
+  MostOfRuns past(cloud), beside(cloud);
+  for (std::size_t k = 0; k < cloud.stripes.size(); ++k) {
+    const ScanStripe& stripe = cloud.stripes[k];
     const int last = stripe.first + stripe.count - 1;
     if (stripe.count < kLeastRun ||
         std::min(std::abs(line.along(cloud.points[stripe.first]) - near),
@@ -68,10 +71,16 @@ PlateExtent plate_extent(const ScanCloud& cloud, const JointPlate& plate, const 
       if (!through) continue;
       const double r = away.dot(*through - line.point);
       const double place = outward * line.along(*through) + kSquareCut * r + slack;
-      if (r > kNearSeam && r < far && place > extent.on) past.add(i, -place);
+      if (r <= kNearSeam || r >= far) continue;
+      if (place > extent.on) past.add(i, -place);
+      if (k >= crossings.along.size() || !crossings.along[k] || !stripes[k].empty()) continue;
+      const double crossing =
+          outward * (*crossings.along[k] + crossings.slant * std::max(0.0, r - kAskew)) +
+          kSquareCut * r + slack;
+      if (crossing > extent.on) beside.add(i, -crossing);
     }
   }
-  extent.past = -past.most();
+  extent.past = -std::max(past.most(), beside.most());
   return extent;
 }
 

@@ -3,6 +3,8 @@
 #pragma once
 
 #include <limits>
+#include <optional>
+#include <vector>
 
 #include "services/seam_finding/ends.hpp"
 
@@ -14,12 +16,21 @@ struct PlateExtent {
   double past = std::numeric_limits<double>::infinity();  // something was seen through there
 };
 
+// Where each stripe crosses the line, by its index; nothing where it does not. mm
+struct StripeCrossings {
+  std::vector<std::optional<double>> along;
+  double slant = 0;  // mm along the line for each mm away from it in the plate
+};
+
 // Stripes cross a plate at a slant: one that lies on it shows how far it reaches at the stripe's
 // farthest place, not only where it crosses the seam. And a point that is seen behind the plate's
 // plane is seen past the plate: its line of sight meets the plane where no plate is. Both hold at
-// the seam but for how square the plate is cut. Looks at the stripes about `near`, along the line;
+// the seam but for how square the plate is cut. Where the stripes' crossings of the line are given,
+// a stripe that falls behind the plate all along its width tells that none is where it crosses the
+// plate's plane. Looks at the stripes about `near`, along the line;
 // mm. Nothing is known in a cloud without stripes.
 PlateExtent plate_extent(const ScanCloud& cloud, const JointPlate& plate, const JointPlate& other,
-                         const Line& line, SeamSide side, double near, const EndSearch& search);
+                         const Line& line, SeamSide side, double near, const EndSearch& search,
+                         const StripeCrossings& crossings = {});
 
 }  // namespace arcstart
