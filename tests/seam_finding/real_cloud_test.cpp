@@ -131,6 +131,14 @@ TEST_CASE("real clouds without a straight seam get no line that is not there") {
   const Run tube = run(std::string(clouds() / "shape3_0deg_filtered.pcd") + " --units m --json");
   CHECK(tube.exit_code == 1);
   CHECK(tube.json["verdict"] != "found");
+  // A rough surface with holes, in which no two plates meet.
+  const std::string plates = std::string(clouds() / "2plate_partA_fig1_cropped.pcd") + " --units m";
+  for (const char* options : {" --json", " --json --remove-plane"}) {
+    const Run two = run(plates + options);
+    CHECK(two.exit_code == 1);
+    CHECK(two.json["verdict"] != "found");
+    CHECK(!two.json["reason"].get<std::string>().empty());
+  }
 }
 
 TEST_CASE("bad input ends with 2") {
