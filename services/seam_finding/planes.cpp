@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <cmath>
 #include <optional>
-#include <queue>
 #include <random>
 
 #include "services/seam_finding/components.hpp"
@@ -11,11 +10,11 @@
 #include "services/seam_finding/plane_fit.hpp"
 #include "services/seam_finding/plane_points.hpp"
 #include "services/seam_finding/stripe_planes.hpp"
+#include "services/seam_finding/suggested_planes.hpp"
 
 namespace arcstart {
 namespace {
 
-constexpr std::size_t kJury = 4096;      // points that judge a hypothesis
 constexpr std::size_t kFirstLook = 256;  // of those, after which a poor one is given up
 constexpr int kRefits = 5;
 
@@ -51,14 +50,6 @@ Plane refit(const std::vector<Eigen::Vector3d>& points, const PlanePoints& side_
   const auto fit = sums.fit();
   if (!(fit.spread[0] > 1e-6)) return plane;
   return fit.plane.normal.dot(plane.normal) < 0 ? fit.plane.flipped() : fit.plane;
-}
-
-std::vector<Eigen::Vector3d> every(std::size_t step, std::size_t first,
-                                   const std::vector<Eigen::Vector3d>& points) {
-  std::vector<Eigen::Vector3d> some;
-  some.reserve(points.size() / step + 1);
-  for (std::size_t i = first; i < points.size(); i += step) some.push_back(points[i]);
-  return some;
 }
 
 std::vector<Eigen::Vector3d> shuffled(std::vector<Eigen::Vector3d> points, Dice& dice) {
@@ -109,7 +100,7 @@ class Jury {
 // more often than three drawn from all.
 std::optional<Plane> best_hypothesis(const std::vector<Eigen::Vector3d>& points,
                                      const PlaneSearch& search, Dice& dice) {
-  const std::size_t step = std::max<std::size_t>(1, (points.size() + kJury - 1) / kJury);
+  const std::size_t step = jury_step(points.size());
   const std::vector<Eigen::Vector3d> sample = every(step, dice.below(step), points);
   Jury jury(shuffled(sample, dice), search,
             search.connection * std::sqrt(static_cast<double>(step)));
@@ -171,62 +162,6 @@ Face grow(Sought& sought, Plane plane, const PlaneSearch& search) {
   return face;
 }
 
-// Planes that are known beforehand, judged by an even sample of the points sought: the one with the
-// largest connected piece first. Faces taken away only ever lessen what a plane is worth, so that
-// most need not be judged again.
-class SuggestedPlanes {
- public:
-  SuggestedPlanes(std::vector<Plane> planes, const Sought& sought, const PlaneSearch& search)
-      : search_(search),
-        planes_(std::move(planes)),
-        step_(std::max<std::size_t>(1, (sought.points.size() + kJury - 1) / kJury)),
-        sample_(every(step_, 0, sought.points)),
-        left_(sample_),
-        pieces_(step_ == 1
-                    ? sought.pieces
-                    : Pieces(sample_, search.connection * std::sqrt(static_cast<double>(step_)))) {
-    least_ = std::max(2, search.least_points / static_cast<int>(step_));
-    for (std::size_t i = 0; i < planes_.size(); ++i)
-      offer(left_.count_near(planes_[i], search.tolerance, 0, left_.size()), i);
-  }
-
-  // Nothing where no one is worth a face any more.
-  std::optional<Plane> best() {
-    while (!worths_.empty()) {
-      const auto [bound, place] = worths_.top();
-      worths_.pop();
-      left_.find_near(planes_[static_cast<std::size_t>(-place)], search_.tolerance, on_it_);
-      const int worth = static_cast<int>(on_it_.size()) < least_ ? 0 : pieces_.largest_size(on_it_);
-      if (worth >= least_ && (worths_.empty() || worth >= worths_.top().first))
-        return planes_[static_cast<std::size_t>(-place)];
-      offer(worth, static_cast<std::size_t>(-place));
-    }
-    return std::nullopt;
-  }
-  // The places of a face's points among those sought.
-  void remove(const std::vector<int>& places) {
-    std::vector<int> sampled;
-    for (const int i : places)
-      if (i % static_cast<int>(step_) == 0) sampled.push_back(i / static_cast<int>(step_));
-    left_.remove(sampled);
-  }
-
- private:
-  void offer(int worth, std::size_t plane) {
-    if (worth >= least_) worths_.emplace(worth, -static_cast<int>(plane));
-  }
-
-  const PlaneSearch& search_;
-  std::vector<Plane> planes_;
-  std::size_t step_;
-  std::vector<Eigen::Vector3d> sample_;
-  PlanePoints left_;
-  Pieces pieces_;
-  int least_ = 0;
-  std::priority_queue<std::pair<int, int>> worths_;  // bounds from above, and the first of equals
-  std::vector<int> on_it_;
-};
-
 // By three points drawn from those that are in no face yet.
 std::optional<Plane> drawn_plane(const Sought& sought, const PlaneSearch& search, Dice& dice) {
   std::vector<Eigen::Vector3d> inside;
@@ -267,7 +202,8 @@ std::vector<Face> find_faces(const ScanCloud& cloud, std::vector<int> indices,
   PlanePoints side_by_side(points);
   Sought sought{std::move(points), std::move(segment_ends), std::move(pieces),
                 std::move(side_by_side)};
-  SuggestedPlanes suggested(planes_of_stripes(cloud, indices, search), sought, search);
+  SuggestedPlanes suggested(planes_of_stripes(cloud, indices, search), sought.points, sought.pieces,
+                            search);
   std::vector<Face> faces;
   Dice dice(seed);
   while (static_cast<int>(faces.size()) < search.most_faces) {
