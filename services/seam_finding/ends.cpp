@@ -72,7 +72,7 @@ StripeCrossings crossings_of(const ScanCloud& cloud, const Stations& stations, i
   return crossings;
 }
 
-// Stripes may end for another reason than the plate's edge: in a shadow, or behind something.
+// A lone stripe may end for another reason than the plate's edge: in a shadow, or behind something.
 bool possible(const PlateEdge& edge, const PlateExtent& extent, double outward) {
   const double place = outward * edge.along, allowed = kSameEdge * std::sqrt(edge.variance);
   return place > extent.on - allowed && place < extent.past + allowed;
@@ -173,7 +173,7 @@ SeamEnd find_end(const ScanCloud& cloud, const std::array<JointPlate, 2>& plates
     edges[j] = find_edge(cloud, plates[j], plates[1 - j], line, side, edge_search);
   }
   for (int j = 0; j < 2; ++j) {
-    if (!edges[j] && brackets[j].runs_on) continue;
+    if ((edges[j] && edges[j]->stripes > 1) || brackets[j].runs_on) continue;
     const PlateExtent extent = plate_extent(cloud, plates[j], plates[1 - j], line, side, end.along,
                                             search, crossings_of(cloud, stations, j));
     if (edges[j] && !possible(*edges[j], extent, outward)) edges[j].reset();
