@@ -43,7 +43,7 @@ struct SeamFindingSettings {
 
   double refit_distance_mm = 60;  // plates are fitted again to what lies so near the seam
   int outlier_neighbours =
-      10;  // statistical outlier removal before that fit; 0: none. Never before the ends
+      10;  // statistical outlier removal in that fit, of points 1.5 mm apart; 0: none. Not of ends
   double outlier_deviations =
       3;  // a point is dropped whose mean distance to them is so far above the plate's mean
 
