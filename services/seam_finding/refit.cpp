@@ -14,7 +14,8 @@ constexpr int kLeastPoints = 20;
 constexpr std::size_t kSoughtAgain =
     4096;                              // of more points the outliers are sought in one pass alone
 constexpr std::size_t kEnough = 4096;  // points of a plate; of more, means over so many neighbours
-                                       // of a stripe that it is as few
+                                       // of a stripe that it is as few. Points of no stripe have
+                                       // no neighbours
 // The stripe's centre is drawn aside so near the other plate; mm.
 constexpr double kBendWidth = 1.2;
 constexpr double kOverhang = 3;  // beyond the seam's ends; mm
@@ -85,9 +86,10 @@ Plane fitted(const ScanCloud& cloud, const Joint& joint, int plate, const std::v
   const std::size_t together = 1 + chosen.size() / kEnough;
   points.reserve(chosen.size() / together + cloud.stripes.size() + 1);
   for (std::size_t first = 0, last = 0; first < chosen.size(); first = last) {
-    Eigen::Vector3d sum = Eigen::Vector3d::Zero();
-    for (last = first; last < std::min(first + together, chosen.size()) &&
-                       cloud.origins[chosen[last]].stripe == cloud.origins[chosen[first]].stripe;
+    const int stripe = cloud.origins[chosen[first]].stripe;
+    Eigen::Vector3d sum = cloud.points[chosen[first]];
+    for (last = first + 1; stripe >= 0 && last < std::min(first + together, chosen.size()) &&
+                           cloud.origins[chosen[last]].stripe == stripe;
          ++last)
       sum += cloud.points[chosen[last]];
     points.push_back(sum / static_cast<double>(last - first));

@@ -13,9 +13,11 @@ constexpr double kLeastMotion = 5;  // mm
 constexpr int kSamples = 400;       // places where the points' distance is measured
 constexpr int kNoisePlaces = 200;   // and their noise
 constexpr int kNeighbours = 8;
-constexpr int kMostSteps = 2048;       // of a larger cloud so many serve
-constexpr int kNeighbourhoods = 2500;  // points that serve, of a cloud of more than twice as many
-constexpr std::size_t kCrowd = 64;     // points of a cell that are looked at for the noise
+constexpr int kMostSteps = 2048;  // of a larger cloud so many serve
+// Points that serve, of a cloud of more than twice as many; one without stripes may show its plates
+// here and there alone.
+constexpr int kNeighbourhoods = 2500, kLooseNeighbourhoods = 16384;
+constexpr std::size_t kCrowd = 64;  // points of a cell that are looked at for the noise
 
 double percentile(std::vector<double>& values, double share) {
   if (values.empty()) return 0;
@@ -75,7 +77,8 @@ double point_spacing(const ScanCloud& cloud) {
 double surface_noise(const ScanCloud& cloud, double radius) {
   if (!(radius > 0)) return 0;
   std::vector<Eigen::Vector3d> points;
-  const int every = cloud.size() <= 2 * kNeighbourhoods ? 1 : cloud.size() / kNeighbourhoods;
+  const int enough = cloud.organised() ? kNeighbourhoods : kLooseNeighbourhoods;
+  const int every = cloud.size() <= 2 * enough ? 1 : cloud.size() / enough;
   points.reserve(static_cast<std::size_t>(cloud.size() / every + 1));
   for (int i = 0; i < cloud.size(); i += every) points.push_back(cloud.points[i]);
   const NeighbourGrid grid(points, radius);
