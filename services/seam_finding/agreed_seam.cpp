@@ -6,12 +6,14 @@
 #include <cmath>
 
 #include "common/geometry.hpp"
+#include "services/seam_finding/scales.hpp"
 
 namespace arcstart {
 namespace {
 
 constexpr int kDraws = 9;
 constexpr int kAgree = 6;
+constexpr double kWidest = 2;  // tolerance of the last draw over that of the first
 constexpr double kSameDirection = 5 * M_PI / 180;
 constexpr double kSamePlace = 10;  // between the lines; mm
 
@@ -32,9 +34,13 @@ bool agree(const SeamResult& a, const SeamResult& b) {
 SeamResult find_agreed_seam(const ScanCloud& scan, const Background& background,
                             const SeamFindingSettings& settings, std::uint64_t seed) {
   std::vector<SeamResult> results, others;
+  const double tolerance =
+      scales_of(scan, measure_sampling(scan), settings.plane_tolerance_mm).tolerance;
+  SeamFindingSettings drawn = settings;
   for (int draw = 0; draw < kDraws; ++draw) {
-    SeamResult result =
-        find_seam(scan, background, settings, seed + static_cast<std::uint64_t>(draw));
+    if (settings.plane_tolerance_mm == 0)
+      drawn.plane_tolerance_mm = tolerance * (1 + (kWidest - 1) * draw / (kDraws - 1));
+    SeamResult result = find_seam(scan, background, drawn, seed + static_cast<std::uint64_t>(draw));
     (found(result) ? results : others).push_back(std::move(result));
   }
   const auto support = [&](const SeamResult& a) {

@@ -8,9 +8,11 @@
 namespace arcstart {
 
 // Planes can be laid through rough or curved surfaces in many ways, and some of them meet like the
-// plates of a joint. A real joint is found again when the planes are drawn anew. Finds the seam
-// nine times with other random choices, and gives the answer on which two thirds of them agree;
-// refuses, with all the seams listed, where there is none. The same seed gives the same answer.
+// plates of a joint. A real joint is found again when the planes are drawn anew, and when a point
+// may lie farther from its plane. Finds the seam nine times with other random choices and a
+// tolerance that rises from the cloud's own to twice that (unless it is set), and gives the answer
+// on which two thirds of them agree; refuses, with all the seams listed, where there is none. The
+// same seed gives the same answer.
 SeamResult find_agreed_seam(const ScanCloud& scan, const Background& background,
                             const SeamFindingSettings& settings, std::uint64_t seed);
 
