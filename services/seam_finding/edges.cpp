@@ -219,6 +219,10 @@ std::optional<PlateEdge> find_edge(const ScanCloud& cloud, const JointPlate& pla
     if (const auto place = place_of(cloud, run, plate, other, line, side, search))
       if (place->away < far && (place->sharp || place->away > kNearSeam)) places.push_back(*place);
   std::vector<Place> on_edge = largest_agreement(places, search);
+  // What is seen of the plate before something else tells no more than that it reaches so far.
+  const auto clear = [](const Place& place) { return place.sharp && !place.occluded; };
+  if (std::count_if(on_edge.begin(), on_edge.end(), clear) >= kSharpBeyond)
+    std::erase_if(on_edge, [](const Place& place) { return place.occluded; });
   // A lone stripe that ends beside the seam, or cannot be seen to, ends for another reason.
   if (on_edge.size() == 1 && (on_edge[0].away <= kNearSeam || !on_edge[0].sharp))
     return std::nullopt;

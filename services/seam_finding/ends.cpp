@@ -4,6 +4,7 @@
 #include <cmath>
 #include <optional>
 
+#include "services/seam_finding/interruption.hpp"
 #include "services/seam_finding/plate_extent.hpp"
 
 namespace arcstart {
@@ -76,6 +77,13 @@ StripeCrossings crossings_of(const ScanCloud& cloud, const Stations& stations, i
 bool possible(const PlateEdge& edge, const PlateExtent& extent, double outward) {
   const double place = outward * edge.along, allowed = kSameEdge * std::sqrt(edge.variance);
   return place > extent.on - allowed && place < extent.past + allowed;
+}
+
+// Of two plates' edges the lone stripe's that lies inside the other's, which several tell.
+bool ends_early(const PlateEdge& edge, const PlateEdge& other, double outward) {
+  return edge.stripes == 1 && other.stripes > 1 && !other.occluded &&
+         outward * (other.along - edge.along) >
+             kSameEdge * std::sqrt(edge.variance + other.variance);
 }
 
 // Of two plates the one that ends the seam first, where the second is known by a bracket only. Two
@@ -172,10 +180,12 @@ SeamEnd find_end(const ScanCloud& cloud, const std::array<JointPlate, 2>& plates
     edge_search.shortening_px = search.shortening_px;
     edges[j] = find_edge(cloud, plates[j], plates[1 - j], line, side, edge_search);
   }
+  std::array<PlateExtent, 2> extents;
   for (int j = 0; j < 2; ++j) {
     if ((edges[j] && edges[j]->stripes > 1) || brackets[j].runs_on) continue;
-    const PlateExtent extent = plate_extent(cloud, plates[j], plates[1 - j], line, side, end.along,
-                                            search, crossings_of(cloud, stations, j));
+    PlateExtent& extent = extents[j];
+    extent = plate_extent(cloud, plates[j], plates[1 - j], line, side, end.along, search,
+                          crossings_of(cloud, stations, j));
     if (edges[j] && !possible(*edges[j], extent, outward)) edges[j].reset();
     // Where stripes cross the one plate's edge, they may leave this one unseen.
     const double slant = edges[1 - j] ? std::max(0.0, outward * stations.slant[j]) : 0;
@@ -189,6 +199,17 @@ SeamEnd find_end(const ScanCloud& cloud, const std::array<JointPlate, 2>& plates
     searches[j].to = edges[1 - j]->along + kFlushWithin;
     if (const auto flush = find_edge(cloud, plates[j], plates[1 - j], line, side, searches[j]))
       edges[j] = flush;
+  }
+  // A lone stripe that ends before the other plate does may end in a shadow, or behind something:
+  // the plate reaches at least so far.
+  for (int j = 0; j < 2; ++j) {
+    if (!edges[0] || !edges[1] || !ends_early(*edges[j], *edges[1 - j], outward)) continue;
+    if (!edges[j]->occluded &&
+        !stands_before(cloud, plates, line, stations, edges[j]->along, kBeside))
+      continue;
+    extents[j].on = std::max(extents[j].on, outward * edges[j]->along);
+    narrow(brackets[j], extents[j], 0, outward);
+    edges[j].reset();
   }
   if (!edges[0] && !edges[1]) {
     between_brackets(end, brackets, outward);

@@ -1,5 +1,8 @@
 #include "services/seam_finding/interruption.hpp"
 
+#include <algorithm>
+#include <cmath>
+
 #include "services/seam_finding/plate_stripes.hpp"
 
 namespace arcstart {
@@ -10,21 +13,23 @@ constexpr double kReach = 60;                  // what stands before a seam lies
 constexpr double kStandsBefore = 3;            // mm
 constexpr int kLeastSeen = 3;                  // points
 
-struct Between {
-  int before = 0;  // points before both plates
-  int past = 0;    // points seen through where a plate is missing
-};
+// Points of a stripe before both plates.
+int points_before(const ScanCloud& cloud, const std::array<JointPlate, 2>& plates, const Line& line,
+                  const ScanStripe& stripe) {
+  int before = 0;
+  for (int i = stripe.first; i < stripe.first + stripe.count; ++i)
+    before += plates[0].plane.signed_distance(cloud.points[i]) > kStandsBefore &&
+              plates[1].plane.signed_distance(cloud.points[i]) > kStandsBefore &&
+              line.distance(cloud.points[i]) < kReach;
+  return before;
+}
 
-Between look(const ScanCloud& cloud, const std::array<JointPlate, 2>& plates, const Line& line,
-             const Stations& stations, const Station& station, double tolerance) {
-  Between between;
+// Points seen through where a plate is missing.
+int points_past(const ScanCloud& cloud, const std::array<JointPlate, 2>& plates, const Line& line,
+                const Stations& stations, const Station& station, double tolerance) {
   const ScanStripe& stripe = cloud.stripes[station.stripe];
   std::array<int, 2> past{};
   for (int i = stripe.first; i < stripe.first + stripe.count; ++i) {
-    const Eigen::Vector3d& point = cloud.points[i];
-    between.before += plates[0].plane.signed_distance(point) > kStandsBefore &&
-                      plates[1].plane.signed_distance(point) > kStandsBefore &&
-                      line.distance(point) < kReach;
     for (int j = 0; j < 2; ++j) {
       if (station.nearest[j] <= stations.near[j]) continue;
       const auto through = seen_through(cloud, plates[j].plane, i, 2 * tolerance);
@@ -33,8 +38,7 @@ Between look(const ScanCloud& cloud, const std::array<JointPlate, 2>& plates, co
       past[j] += r > kNearSeam && r < kBeside;
     }
   }
-  between.past = std::max(past[0], past[1]);
-  return between;
+  return std::max(past[0], past[1]);
 }
 
 }  // namespace
@@ -47,11 +51,18 @@ bool hidden_between(const ScanCloud& cloud, const std::array<JointPlate, 2>& pla
     const Station& station = stations.list[k];
     if (station.stripe < 0) return false;
     if (!station.known || stations.both(station)) continue;
-    const Between between = look(cloud, plates, line, stations, station, tolerance);
-    if (between.past >= kLeastSeen) return false;
-    hidden |= between.before >= kLeastSeen;
+    if (points_past(cloud, plates, line, stations, station, tolerance) >= kLeastSeen) return false;
+    hidden |= points_before(cloud, plates, line, cloud.stripes[station.stripe]) >= kLeastSeen;
   }
   return hidden;
+}
+
+bool stands_before(const ScanCloud& cloud, const std::array<JointPlate, 2>& plates,
+                   const Line& line, const Stations& stations, double along, double around) {
+  return std::any_of(stations.list.begin(), stations.list.end(), [&](const Station& station) {
+    return station.stripe >= 0 && std::abs(station.along - along) <= around &&
+           points_before(cloud, plates, line, cloud.stripes[station.stripe]) >= kLeastSeen;
+  });
 }
 
 }  // namespace arcstart

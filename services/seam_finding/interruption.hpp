@@ -10,4 +10,9 @@ namespace arcstart {
 bool hidden_between(const ScanCloud& cloud, const std::array<JointPlate, 2>& plates,
                     const Line& line, const Stations& stations, int from, int to, double tolerance);
 
+// Whether something stands before both plates in one of the stripes that cross the line within
+// `around` mm of a place on it; it may hide a plate there, or keep the light from it.
+bool stands_before(const ScanCloud& cloud, const std::array<JointPlate, 2>& plates,
+                   const Line& line, const Stations& stations, double along, double around);
+
 }  // namespace arcstart
