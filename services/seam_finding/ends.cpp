@@ -146,24 +146,38 @@ EndVisibility seen_beyond(const ScanCloud& cloud, const Stations& stations,
   return visibility;
 }
 
-}  // namespace
+// How far both plates are seen to reach, along the line, where that is behind something that hides
+// the seam; nothing where it is not, or no farther than `end` by more than `width`.
+std::optional<double> both_reach(const ScanCloud& cloud, const std::array<JointPlate, 2>& plates,
+                                 const Line& line, const Stations& stations, SeamSide side,
+                                 double end, double width, const EndSearch& search) {
+  if (!stands_before(cloud, plates, line, stations, end, kBeside)) return std::nullopt;
+  const double outward = side == SeamSide::kEnd ? 1 : -1;
+  double reach = std::numeric_limits<double>::infinity();
+  for (int j = 0; j < 2; ++j)
+    reach =
+        std::min(reach, plate_extent(cloud, plates[j], plates[1 - j], line, side, end, search).on);
+  if (!(reach > outward * end + width)) return std::nullopt;
+  return outward * reach;
+}
 
+// Between two brackets of the stripes about `end`. hidden: no stripe shows the seam between the
+// course's end and this one.
 SeamEnd find_end(const ScanCloud& cloud, const std::array<JointPlate, 2>& plates, const Line& line,
-                 const Course& course, const Stations& stations, SeamSide side,
+                 double along, bool hidden, const Stations& stations, SeamSide side,
                  const EndSearch& search) {
   const bool begin = side == SeamSide::kBegin;
   const double outward = begin ? -1 : 1;
   SeamEnd end;
-  end.along = begin ? course.begin : course.end;
+  end.along = along;
   end.visibility = EndVisibility::kSeen;
   std::array<Bracket, 2> brackets;
-  for (int j = 0; j < 2; ++j) brackets[j] = bracket_of(stations, j, end.along, outward);
+  for (int j = 0; j < 2; ++j) {
+    brackets[j] = bracket_of(stations, j, end.along, outward);
+    if (hidden) brackets[j].inner = end.along;
+  }
   const double width = std::abs(brackets[0].outer - brackets[0].inner);
   end.variance = width * width / 12;
-  if (begin ? course.begins_outside : course.ends_outside) {
-    end.visibility = EndVisibility::kOutside;
-    return end;
-  }
 
   std::array<std::optional<PlateEdge>, 2> edges;
   std::array<EdgeSearch, 2> searches;
@@ -212,6 +226,9 @@ SeamEnd find_end(const ScanCloud& cloud, const std::array<JointPlate, 2>& plates
     edges[j].reset();
   }
   if (!edges[0] && !edges[1]) {
+    const auto reach = both_reach(cloud, plates, line, stations, side, end.along, width, search);
+    if (reach && !hidden)
+      return find_end(cloud, plates, line, *reach, true, stations, side, search);
     between_brackets(end, brackets, outward);
     end.visibility =
         seen_beyond(cloud, stations, plates, line, end.along, outward, search.tolerance);
@@ -234,6 +251,21 @@ SeamEnd find_end(const ScanCloud& cloud, const std::array<JointPlate, 2>& plates
   for (int j = 0; j < 2; ++j)
     if (!edges[j] && !brackets[j].runs_on) limit_by_bracket(end, brackets[j], outward);
   if (edge.occluded) end.visibility = EndVisibility::kHidden;
+  return end;
+}
+
+}  // namespace
+
+SeamEnd find_end(const ScanCloud& cloud, const std::array<JointPlate, 2>& plates, const Line& line,
+                 const Course& course, const Stations& stations, SeamSide side,
+                 const EndSearch& search) {
+  const bool begin = side == SeamSide::kBegin;
+  const double along = begin ? course.begin : course.end;
+  if (!(begin ? course.begins_outside : course.ends_outside))
+    return find_end(cloud, plates, line, along, false, stations, side, search);
+  const Bracket bracket = bracket_of(stations, 0, along, begin ? -1 : 1);
+  SeamEnd end{along, std::pow(bracket.outer - bracket.inner, 2) / 12};
+  end.visibility = EndVisibility::kOutside;
   return end;
 }
 
