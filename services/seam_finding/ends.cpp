@@ -161,10 +161,10 @@ std::optional<double> both_reach(const ScanCloud& cloud, const std::array<JointP
   return outward * reach;
 }
 
-// Between two brackets of the stripes about `end`. hidden: no stripe shows the seam between the
-// course's end and this one.
+// About a place between two stripes. Where `reach` is given no stripe shows the seam between the
+// course and that place, up to which both plates are there.
 SeamEnd find_end(const ScanCloud& cloud, const std::array<JointPlate, 2>& plates, const Line& line,
-                 double along, bool hidden, const Stations& stations, SeamSide side,
+                 double along, std::optional<double> reach, const Stations& stations, SeamSide side,
                  const EndSearch& search) {
   const bool begin = side == SeamSide::kBegin;
   const double outward = begin ? -1 : 1;
@@ -174,7 +174,7 @@ SeamEnd find_end(const ScanCloud& cloud, const std::array<JointPlate, 2>& plates
   std::array<Bracket, 2> brackets;
   for (int j = 0; j < 2; ++j) {
     brackets[j] = bracket_of(stations, j, end.along, outward);
-    if (hidden) brackets[j].inner = end.along;
+    if (reach) brackets[j].inner = *reach;
   }
   const double width = std::abs(brackets[0].outer - brackets[0].inner);
   end.variance = width * width / 12;
@@ -226,9 +226,12 @@ SeamEnd find_end(const ScanCloud& cloud, const std::array<JointPlate, 2>& plates
     edges[j].reset();
   }
   if (!edges[0] && !edges[1]) {
-    const auto reach = both_reach(cloud, plates, line, stations, side, end.along, width, search);
-    if (reach && !hidden)
-      return find_end(cloud, plates, line, *reach, true, stations, side, search);
+    const auto behind =
+        reach ? std::nullopt
+              : both_reach(cloud, plates, line, stations, side, end.along, width, search);
+    if (behind)  // the stripe that shows a plate so far need not show it at the seam
+      return find_end(cloud, plates, line, *behind + outward * width / 2, behind, stations, side,
+                      search);
     between_brackets(end, brackets, outward);
     end.visibility =
         seen_beyond(cloud, stations, plates, line, end.along, outward, search.tolerance);
@@ -262,7 +265,7 @@ SeamEnd find_end(const ScanCloud& cloud, const std::array<JointPlate, 2>& plates
   const bool begin = side == SeamSide::kBegin;
   const double along = begin ? course.begin : course.end;
   if (!(begin ? course.begins_outside : course.ends_outside))
-    return find_end(cloud, plates, line, along, false, stations, side, search);
+    return find_end(cloud, plates, line, along, std::nullopt, stations, side, search);
   const Bracket bracket = bracket_of(stations, 0, along, begin ? -1 : 1);
   SeamEnd end{along, std::pow(bracket.outer - bracket.inner, 2) / 12};
   end.visibility = EndVisibility::kOutside;
