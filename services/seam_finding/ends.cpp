@@ -14,6 +14,7 @@ constexpr double kNearSeam = 3, kBeside = 25;  // from the seam in a plate; mm
 constexpr double kStandsBefore = 3;            // mm
 constexpr double kFlush = 0.3;                 // share of joints whose plates end together
 constexpr double kFlushWithin = 0.6;           // mm
+constexpr double kLight = 0.15;                // half a stripe's width: seen where it falls; mm
 constexpr double kOffsets = 40;                // the others end so far about each other; mm
 constexpr double kSameEdge = 2.5;              // standard deviations of their difference
 // A stripe shows a plate at the seam also where it leaves it a little before; mm along the seam.
@@ -93,7 +94,9 @@ void limit_by_bracket(SeamEnd& end, const Bracket& bracket, double outward) {
   const double edge = outward * end.along;
   if (edge <= inner || !(outer > inner)) return;
   const double high = std::min(edge, outer), per_mm = (1 - kFlush) / kOffsets;
-  const double flush = edge <= outer ? kFlush : 0;
+  // A stripe beside the plate lets some of its light fall on it where it lies nearer than that.
+  const double beside = (outer - kLight - edge) / std::sqrt(end.variance);
+  const double flush = kFlush * 0.5 * std::erfc(-beside / std::sqrt(2.0));
   const double share = per_mm * (high - inner) / (per_mm * (outer - inner) + flush);
   const double middle = (inner + high) / 2;
   const double mean = share * middle + (1 - share) * edge;
