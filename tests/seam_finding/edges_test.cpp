@@ -80,6 +80,34 @@ TEST_CASE("stripes square to the seam cross no edge; what lies before a plate hi
   CHECK(edge->occluded);
 }
 
+TEST_CASE("a stripe that ends behind something before the edge is no place of it") {
+  // Of a short plate few stripes cross the edge; the last one is hidden from 0.8 mm before it on.
+  Made made = make(2, 0.3, false, 4);
+  int last = -1;
+  for (const int i : made.plate.points)
+    if (made.cloud.origins[i].segment_end && made.line.along(made.cloud.points[i]) < 2.5 &&
+        (last < 0 || made.cloud.points[i].y() > made.cloud.points[last].y()))
+      last = i;
+  REQUIRE(last >= 0);
+  made.cloud.points[last].x() += 0.8;
+  made.cloud.points[last].y() -= 0.8 / 0.3;
+  const ScanStripe& stripe = made.cloud.stripes[made.cloud.origins[last].stripe];
+  REQUIRE(last == stripe.first + stripe.count - 1);
+  // The thing before it is the next point of the stripe.
+  const int index = made.cloud.origins[last].stripe;
+  made.cloud.points.insert(made.cloud.points.begin() + last + 1,
+                           made.cloud.points[last] + Eigen::Vector3d(-1, 1, 9));
+  made.cloud.origins.insert(made.cloud.origins.begin() + last + 1, {index, 1, true, 0, 0.1f});
+  ++made.cloud.stripes[index].count;
+  for (std::size_t k = index + 1; k < made.cloud.stripes.size(); ++k) ++made.cloud.stripes[k].first;
+  for (int& i : made.plate.points) i += i > last;
+  const auto edge = find_edge(made.cloud, made.plate, made.other, made.line, SeamSide::kBegin,
+                              {-1, 5, 0, 0.5, 0.02, 0.15});
+  REQUIRE(edge);
+  CHECK_FALSE(edge->occluded);
+  CHECK(edge->along == Approx(2).margin(0.15));
+}
+
 TEST_CASE("there is no edge where none is expected, nor in a cloud without stripes") {
   const Made made = make(2, 0.3, false, 5);
   CHECK_FALSE(find_edge(made.cloud, made.plate, made.other, made.line, SeamSide::kBegin,

@@ -1,14 +1,14 @@
 #include <catch2/catch.hpp>
 
 #include "services/seam_finding/course.hpp"
+#include "services/seam_finding/ends.hpp"
 #include "tests/seam_finding/synthetic_scan.hpp"
 
 using namespace arcstart;
 
 namespace {
 
-// An upright 120 mm long on a base plate, in a gap of 40 mm of which either a box stands before
-// the seam or the upright is missing.
+// What stands on a base plate 120 mm long, upright and whatever is before it.
 struct Bench {
   ScanCloud cloud;
   std::array<JointPlate, 2> plates;
@@ -22,16 +22,10 @@ synthetic::Box box_at(const Eigen::Vector3d& low, const Eigen::Vector3d& high) {
   return box;
 }
 
-Bench bench_of(bool hidden) {
+Bench bench_of(const std::vector<synthetic::Box>& on_base) {
   synthetic::Scene scene;
   scene.boxes.push_back(box_at({0, -60, 0}, {120, 60, 10}));
-  if (hidden) {
-    scene.boxes.push_back(box_at({0, -8, 10}, {120, 0, 50}));
-    scene.boxes.push_back(box_at({40, 3, 10}, {80, 20, 45}));
-  } else {
-    scene.boxes.push_back(box_at({0, -8, 10}, {35, 0, 50}));
-    scene.boxes.push_back(box_at({75, -8, 10}, {120, 0, 50}));
-  }
+  scene.boxes.insert(scene.boxes.end(), on_base.begin(), on_base.end());
   synthetic::ScanChoice choice;
   choice.noise = 0.02, choice.outliers = 0, choice.stripe_noise = 0;
   Bench bench;
@@ -49,8 +43,11 @@ Bench bench_of(bool hidden) {
 }  // namespace
 
 TEST_CASE("a seam goes on behind what hides it, however long, and ends where a plate does") {
+  // In a gap of 40 mm either a box stands before the seam or the upright is missing.
   for (const bool hidden : {true, false}) {
-    const Bench bench = bench_of(hidden);
+    const Bench bench =
+        hidden ? bench_of({box_at({0, -8, 10}, {120, 0, 50}), box_at({40, 3, 10}, {80, 20, 45})})
+               : bench_of({box_at({0, -8, 10}, {35, 0, 50}), box_at({75, -8, 10}, {120, 0, 50})});
     const Course course = find_course(bench.cloud, bench.plates, bench.line, {3.6, 0.6, 20});
     INFO(hidden);
     CHECK(std::abs(course.end - 120) < 4);
@@ -59,4 +56,19 @@ TEST_CASE("a seam goes on behind what hides it, however long, and ends where a p
     else
       CHECK(std::abs(course.begin - 75) < 4);
   }
+}
+
+TEST_CASE("a start that is hidden lies where both plates are seen to begin beyond what hides it") {
+  // A box before the seam from its begin on, over which both plates are seen.
+  const Bench bench =
+      bench_of({box_at({0, -8, 10}, {120, 0, 50}), box_at({-1, 2, 10}, {30, 14, 22})});
+  const CourseSearch search{3.6, 0.6, 20};
+  const Course course = find_course(bench.cloud, bench.plates, bench.line, search);
+  REQUIRE(course.begin > 20);
+  const Stations stations = stations_along(bench.cloud, bench.plates, bench.line, search);
+  const SeamEnd start = find_end(bench.cloud, bench.plates, bench.line, course, stations,
+                                 SeamSide::kBegin, {0.6, 0.02, 0});
+  CHECK(start.by_edges);
+  CHECK(start.along == Approx(0).margin(0.3));
+  CHECK(start.along * start.along <= 9 * start.variance);
 }
