@@ -81,12 +81,12 @@ TEST_CASE("stripes square to the seam cross no edge; what lies before a plate hi
 }
 
 TEST_CASE("a stripe that ends behind something before the edge is no place of it") {
-  // Of a short plate few stripes cross the edge; the last one is hidden from 0.8 mm before it on.
+  // Few stripes cross the edge; the one next to the seam is hidden from 0.8 mm before it on.
   Made made = make(2, 0.3, false, 4);
   int last = -1;
   for (const int i : made.plate.points)
     if (made.cloud.origins[i].segment_end && made.line.along(made.cloud.points[i]) < 2.5 &&
-        (last < 0 || made.cloud.points[i].y() > made.cloud.points[last].y()))
+        (last < 0 || made.cloud.points[i].y() < made.cloud.points[last].y()))
       last = i;
   REQUIRE(last >= 0);
   made.cloud.points[last].x() += 0.8;
