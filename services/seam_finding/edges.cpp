@@ -12,7 +12,6 @@ namespace {
 constexpr double kSquareCut =
     0.01;                        // standard deviation of an edge's slope; mm along for each mm away
 constexpr double kAgree = 0.35;  // places on one edge, along the seam; mm
-constexpr double kAgreeSlope = 0.02;  // and so much more for each mm between them
 constexpr double kLeastNoise = 0.03;  // of a place along the seam, standard deviation; mm
 constexpr int kPriorPlaces = 2;       // with that noise, in the estimate of the noise
 constexpr double kFloor = 0.02;       // of an edge, whatever the number of its places; mm
@@ -190,8 +189,8 @@ std::vector<Place> largest_agreement(const std::vector<Place>& places, const Edg
     double weight = 0;
     int sharp = 0;
     for (const Place& other : places) {
-      const double allowed = kAgree + kAgreeSlope * std::abs(one.away - other.away) +
-                             2 * (one.deviation + other.deviation);
+      const double allowed = kAgree + 2 * std::hypot(kSquareCut * (one.away - other.away),
+                                                     one.deviation, other.deviation);
       if (std::abs(one.along - other.along) > allowed) continue;
       together.push_back(other);
       weight += kAgree / (kAgree + other.deviation);
@@ -221,7 +220,8 @@ std::optional<PlateEdge> find_edge(const ScanCloud& cloud, const JointPlate& pla
   std::vector<Place> on_edge = largest_agreement(places, search);
   // What is seen of the plate before something else tells no more than that it reaches so far.
   const auto clear = [](const Place& place) { return place.sharp && !place.occluded; };
-  if (std::count_if(on_edge.begin(), on_edge.end(), clear) >= kSharpBeyond)
+  if (2 * std::count_if(on_edge.begin(), on_edge.end(), clear) >=
+      static_cast<std::ptrdiff_t>(on_edge.size()))
     std::erase_if(on_edge, [](const Place& place) { return place.occluded; });
   // A lone stripe that ends beside the seam, or cannot be seen to, ends for another reason.
   if (on_edge.size() == 1 && (on_edge[0].away <= kNearSeam || !on_edge[0].sharp))

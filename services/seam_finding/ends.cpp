@@ -74,10 +74,11 @@ StripeCrossings crossings_of(const ScanCloud& cloud, const Stations& stations, i
   return crossings;
 }
 
-// A lone stripe may end for another reason than the plate's edge: in a shadow, or behind something.
+// Stripes may end for another reason than the plate's edge: in a shadow, or behind something. What
+// is seen past a plate speaks against a lone one alone.
 bool possible(const PlateEdge& edge, const PlateExtent& extent, double outward) {
   const double place = outward * edge.along, allowed = kSameEdge * std::sqrt(edge.variance);
-  return place > extent.on - allowed && place < extent.past + allowed;
+  return place > extent.on - allowed && (edge.stripes > 1 || place < extent.past + allowed);
 }
 
 // Of two plates' edges the lone stripe's that lies inside the other's, which several tell.
@@ -199,7 +200,7 @@ SeamEnd find_end(const ScanCloud& cloud, const std::array<JointPlate, 2>& plates
   }
   std::array<PlateExtent, 2> extents;
   for (int j = 0; j < 2; ++j) {
-    if ((edges[j] && edges[j]->stripes > 1) || brackets[j].runs_on) continue;
+    if (!edges[j] && brackets[j].runs_on) continue;
     PlateExtent& extent = extents[j];
     extent = plate_extent(cloud, plates[j], plates[1 - j], line, side, end.along, search,
                           crossings_of(cloud, stations, j));

@@ -9,10 +9,11 @@ namespace arcstart {
 namespace {
 
 constexpr double kSquareCut = 0.01;  // an edge's slope, mm along for each mm away: so much at most
-constexpr double kBeam = 0.5;    // of a point's noise across its surface what it is along the seam
-constexpr double kNearSeam = 3;  // where it may be the joint's other plate that is seen; mm
-constexpr double kFarEdge = 3;   // and where the plate's far edge is passed; mm
-constexpr int kLeastRun = 3;     // points in a row that chance does not put on a plate or behind it
+constexpr double kBeam = 0.5;     // of a point's noise across its surface what it is along the seam
+constexpr double kNearSeam = 3;   // where it may be the joint's other plate that is seen; mm
+constexpr double kFarEdge = 3;    // and where the plate's far edge is passed; mm
+constexpr double kFarthest = 55;  // from the seam another thing may touch the plate, as high; mm
+constexpr int kLeastRun = 3;   // points in a row that chance does not put on a plate or behind it
 constexpr double kAskew = 5;   // light and sight meet the plane so far from each other, at most; mm
 constexpr double kStep = 1.5;  // along the seam between neighbours in a row; mm
 constexpr double kAround = 40;  // stripes so near the end tell of it; mm
@@ -50,7 +51,8 @@ PlateExtent plate_extent(const ScanCloud& cloud, const JointPlate& plate, const 
   const Eigen::Vector3d away = away_from_seam(plate, other);
   const double slack = kBeam * search.noise;
   const auto stripes = plate_stripes(cloud, plate, line, away, search.tolerance);
-  const double reach = reach_of(cloud, stripes, line, away), far = reach - kFarEdge;
+  const double reach = std::min(kFarthest, reach_of(cloud, stripes, line, away));
+  const double far = reach - kFarEdge;
   MostOfRuns on(cloud);
   for (const auto& run : stripes)
     for (const int i : run)
