@@ -35,8 +35,9 @@ std::optional<Enclosed> enclose(const Stations& stations, int plate, double with
   std::sort(places.begin(), places.end());
   Enclosed enclosed{outward * within, outward * within};
   bool shown = false;
-  // A plate goes on behind a short interruption.
+  // A plate goes on behind a short interruption, and behind a single stripe that does not show it.
   const auto goes_on = [&](std::size_t from) {
+    if (from + 1 < places.size() && places[from + 1].second) return true;
     int seen = 0;
     for (std::size_t i = from; i < places.size() && places[i].first < places[from].first + kBridge;
          ++i)
