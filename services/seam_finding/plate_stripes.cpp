@@ -66,9 +66,9 @@ double reach_of(const ScanCloud& cloud, const PlateStripes& stripes, const Line&
     if (reach > 0) reaches.push_back(reach);
   }
   if (reaches.empty()) return 0;
-  const auto quarter = reaches.begin() + static_cast<std::ptrdiff_t>(reaches.size() / 4);
-  std::nth_element(reaches.begin(), quarter, reaches.end());
-  return *quarter;
+  const auto middle = reaches.begin() + static_cast<std::ptrdiff_t>(reaches.size() / 2);
+  std::nth_element(reaches.begin(), middle, reaches.end());
+  return *middle;
 }
 
 }  // namespace arcstart

@@ -15,8 +15,8 @@ using PlateStripes = std::vector<std::vector<int>>;
 PlateStripes plate_stripes(const ScanCloud& cloud, const JointPlate& plate, const Line& line,
                            const Eigen::Vector3d& away, double tolerance);
 
-// How far the plate reaches away from the seam: three of four stripes that show it reach so far,
-// the others perhaps along another thing that touches it and is as high; mm, 0 where none does.
+// How far the plate reaches away from the seam: half of the stripes that show it reach so far; mm,
+// 0 where none does.
 double reach_of(const ScanCloud& cloud, const PlateStripes& stripes, const Line& line,
                 const Eigen::Vector3d& away);
 
