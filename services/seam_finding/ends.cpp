@@ -49,10 +49,18 @@ Bracket bracket_of(const Stations& stations, int plate, double end, double outwa
   return bracket;
 }
 
+// How much earlier than it crosses the seam a stripe that shows a plate there may leave it.
+double unsure_of(const Stations& stations, int plate) {
+  return kMargin + kMostSlant * stations.near[plate];
+}
+
 // By what is seen on the plate and past it. A plate that is seen beyond the stripes which do not
 // show it at the seam was only hidden there.
-void narrow(Bracket& bracket, const PlateExtent& extent, double margin, double outward) {
-  const double inner = std::isfinite(extent.on) ? extent.on : outward * bracket.inner;
+void narrow(Bracket& bracket, const PlateExtent& extent, double unsure, double margin,
+            double outward) {
+  const double inner = std::isfinite(extent.on)
+                           ? std::max(extent.on, outward * bracket.inner - unsure)
+                           : outward * bracket.inner;
   double outer = outward * bracket.outer + margin;
   if (extent.on > outer) {
     outer = extent.past;
@@ -187,7 +195,7 @@ SeamEnd find_end(const ScanCloud& cloud, const std::array<JointPlate, 2>& plates
   std::array<EdgeSearch, 2> searches;
   for (int j = 0; j < 2; ++j) {
     EdgeSearch& edge_search = searches[j];
-    const double margin = kMargin + kMostSlant * stations.near[j];
+    const double margin = unsure_of(stations, j);
     const double inner = brackets[j].inner - outward * margin;
     const double outer = brackets[j].outer + outward * std::max(margin, width);
     edge_search.from = std::min(inner, outer);
@@ -207,7 +215,9 @@ SeamEnd find_end(const ScanCloud& cloud, const std::array<JointPlate, 2>& plates
     if (edges[j] && !possible(*edges[j], extent, outward)) edges[j].reset();
     // Where stripes cross the one plate's edge, they may leave this one unseen.
     const double slant = edges[1 - j] ? std::max(0.0, outward * stations.slant[j]) : 0;
-    if (!edges[j]) narrow(brackets[j], extent, kUnseen * stations.near[j] * slant, outward);
+    if (!edges[j])
+      narrow(brackets[j], extent, unsure_of(stations, j), kUnseen * stations.near[j] * slant,
+             outward);
   }
   // Of single stripes, the one that agrees with the other plate's edge.
   for (int j = 0; j < 2; ++j) {
@@ -226,7 +236,7 @@ SeamEnd find_end(const ScanCloud& cloud, const std::array<JointPlate, 2>& plates
         !stands_before(cloud, plates, line, stations, edges[j]->along, kBeside))
       continue;
     extents[j].on = std::max(extents[j].on, outward * edges[j]->along);
-    narrow(brackets[j], extents[j], 0, outward);
+    narrow(brackets[j], extents[j], unsure_of(stations, j), 0, outward);
     edges[j].reset();
   }
   if (!edges[0] && !edges[1]) {
