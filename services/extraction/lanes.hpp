@@ -1,10 +1,15 @@
 // Values side by side in a register, for code compiled for several instruction sets.
 #pragma once
 
+#include <bit>
 #include <cstdint>
 #include <cstring>
 
 #include "services/extraction/instruction_sets.hpp"
+
+#if defined(__x86_64__) && defined(__GNUC__)
+#include <immintrin.h>
+#endif
 
 namespace arcstart {
 
@@ -61,6 +66,37 @@ ARCSTART_INLINE_BODY Lanes<kFloats> load(const float* from) {
   Lanes<kFloats> lanes;
   std::memcpy(&lanes, from, sizeof lanes);
   return lanes;
+}
+
+// Bit i: value i is negative.
+template <int kFloats>
+ARCSTART_INLINE_BODY std::uint32_t signs_of(typename Register<kFloats>::Mask values) {
+#if defined(__x86_64__) && defined(__GNUC__)
+  if constexpr (kFloats == 16) {
+    typedef int Ints __attribute__((vector_size(64)));
+    return __builtin_ia32_cvtd2mask512((Ints)values);
+  }
+  if constexpr (kFloats == 8)
+    return static_cast<std::uint32_t>(__builtin_ia32_movmskps256((Lanes<8>)values));
+#endif
+  std::uint32_t bits = 0;
+  for (int i = 0; i < kFloats; ++i) bits |= static_cast<std::uint32_t>(values[i] < 0) << i;
+  return bits;
+}
+
+// Stores the values that bits name one behind the other. A register's room is written to.
+template <int kFloats>
+ARCSTART_INLINE_BODY void store_named(float* to, Lanes<kFloats> values, std::uint32_t bits) {
+#if defined(__x86_64__) && defined(__GNUC__)
+  if constexpr (kFloats == 16) {
+    store(to,
+          __builtin_ia32_compresssf512_mask(values, Lanes<16>{}, static_cast<std::uint16_t>(bits)));
+    return;
+  }
+#endif
+  float all[kFloats];
+  store(all, values);
+  for (; bits != 0; bits &= bits - 1) *to++ = all[std::countr_zero(bits)];
 }
 
 // Keeps a value in its register: used twice, it would be loaded twice.

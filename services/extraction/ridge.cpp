@@ -26,11 +26,10 @@ void RidgeDetector::detect(const GreyImage& image, const GaussianKernels& kernel
 void RidgeDetector::detect_lines(const GreyImage& image, const GaussianKernels& kernels,
                                  double least_curvature, double strong_curvature, int border,
                                  std::vector<RidgePoint>& points) {
-  points.clear();
   active_share_ = 0;
-  if (std::min(image.width, image.height) <= 2 * kernels.half_width + 1) return;
+  if (std::min(image.width, image.height) <= 2 * kernels.half_width + 1) return points.clear();
   rejection_.mark(image, kernels, strong_curvature, pool_);
-  use(kernels);
+  use(kernels, image.height);
 
   const int columns = rejection_.columns(), rows = rejection_.rows();
   wanted_.clear();
@@ -57,9 +56,8 @@ void RidgeDetector::detect_about(const GreyImage& image, const GaussianKernels& 
                                  double least_curvature, int border,
                                  const std::vector<RidgePoint>& about, int reach,
                                  std::vector<RidgePoint>& points) {
-  points.clear();
-  if (std::min(image.width, image.height) <= 2 * kernels.half_width + 1) return;
-  use(kernels);
+  if (std::min(image.width, image.height) <= 2 * kernels.half_width + 1) return points.clear();
+  use(kernels, image.height);
   wanted_.clear();
   is_wanted_.assign(static_cast<std::size_t>(rejection_.columns()) * rejection_.rows(), 0);
   for (const RidgePoint& point : about) want_about(point, reach, image);
@@ -68,13 +66,14 @@ void RidgeDetector::detect_about(const GreyImage& image, const GaussianKernels& 
   collect_in_raster_order(image.height, points);
 }
 
-void RidgeDetector::use(const GaussianKernels& kernels) {
+void RidgeDetector::use(const GaussianKernels& kernels, int rows) {
   smooth_.assign(kernels.smooth.begin(), kernels.smooth.end());
   first_.assign(kernels.first.begin(), kernels.first.end());
   second_.assign(kernels.second.begin(), kernels.second.end());
   for (Strip& strip : strips_) {
     strip.work.resize(ridge_tile_work(kernels.half_width));
     strip.found.clear();
+    strip.of_row.assign(static_cast<std::size_t>(rows), 0);
     strip.followed = 0;
   }
 }
@@ -109,12 +108,13 @@ void RidgeDetector::look_at_wanted(const GreyImage& image, const GaussianKernels
       const int first_row = std::max(row * BlockRejection::kHeight, border);
       const int end_row =
           std::min((row + end - i) * BlockRejection::kHeight, image.height - border);
-      if (first_row < end_row)
-        find_ridge_points(
-            {image, smooth_.data(), first_.data(), second_.data(), kernels.half_width,
-             least_curvature, column * BlockRejection::kWidth, first_row, end_row - first_row,
-             border, image.width - 1 - border, strip.work.data()},
-            strip.found);
+      if (first_row >= end_row) continue;
+      const std::size_t before = strip.found.size();
+      find_ridge_points({image, smooth_.data(), first_.data(), second_.data(), kernels.half_width,
+                         least_curvature, column * BlockRejection::kWidth, first_row,
+                         end_row - first_row, border, image.width - 1 - border, strip.work.data()},
+                        strip.found);
+      for (std::size_t k = before; k < strip.found.size(); ++k) ++strip.of_row[strip.found[k].row];
     }
   });
 }
@@ -134,17 +134,17 @@ void RidgeDetector::want_about(const RidgePoint& p, int reach, const GreyImage& 
 // Found block by block: sorted by row in one go, then within each row, where most are in order.
 void RidgeDetector::collect_in_raster_order(int height, std::vector<RidgePoint>& points) {
   row_begin_.assign(height + 1, 0);
-  for (const Strip& strip : strips_)
-    for (const RidgePoint& point : strip.found) ++row_begin_[point.row + 1];
-  for (int row = 0; row < height; ++row) row_begin_[row + 1] += row_begin_[row];
-  points.resize(static_cast<std::size_t>(row_begin_[height]));
+  for (int row = 0; row < height; ++row) {
+    row_begin_[row + 1] = row_begin_[row];
+    for (const Strip& strip : strips_) row_begin_[row + 1] += strip.of_row[row];
+  }
+  points.resize(static_cast<std::size_t>(row_begin_[height]));  // what it held is written over
+  row_end_.assign(row_begin_.begin(), row_begin_.end());
   for (const Strip& strip : strips_)
     for (const RidgePoint& point : strip.found) {
-      int at = row_begin_[point.row]++;
-      const auto goes_before = [&] {
-        return at > 0 && points[at - 1].row == point.row && points[at - 1].column > point.column;
-      };
-      for (; goes_before(); --at) points[at] = points[at - 1];
+      const int begin = row_begin_[point.row];
+      int at = row_end_[point.row]++;
+      for (; at > begin && points[at - 1].column > point.column; --at) points[at] = points[at - 1];
       points[at] = point;
     }
 }

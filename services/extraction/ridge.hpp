@@ -60,13 +60,14 @@ class RidgeDetector {
   struct Strip {
     std::vector<float> work;
     std::vector<RidgePoint> found;  // block by block
+    std::vector<int> of_row;        // how many of them, for each of the image's rows
     std::size_t followed = 0;       // of those found: the blocks around them are wanted
   };
   void want(int column, int row);
   void look_at_wanted(const GreyImage& image, const GaussianKernels& kernels, float least_curvature,
                       int border);
   bool begins_tile(int i) const;  // the i-th wanted block
-  void use(const GaussianKernels& kernels);
+  void use(const GaussianKernels& kernels, int rows);
   void want_about(const RidgePoint& point, int reach, const GreyImage& image);
   void collect_in_raster_order(int height, std::vector<RidgePoint>& points);
 
@@ -76,7 +77,7 @@ class RidgeDetector {
   std::vector<float> smooth_, first_, second_;
   std::vector<int> wanted_;  // blocks to be looked at, column by column
   std::vector<std::uint8_t> is_wanted_;
-  std::vector<int> row_begin_;
+  std::vector<int> row_begin_, row_end_;  // in the points, of each row
   double active_share_ = 0;
 };
 

@@ -10,10 +10,6 @@
 #include "services/extraction/lanes.hpp"
 #include "services/extraction/ridge_extrema.hpp"
 
-#if defined(__x86_64__) && defined(__GNUC__)
-#include <immintrin.h>
-#endif
-
 namespace arcstart {
 namespace {
 
@@ -128,52 +124,49 @@ ARCSTART_INLINE_BODY void filter_columns(const float* at, const float* taps, int
   }
 }
 
-// Whether any lane's smaller eigenvalue is -limit or less: the determinant of (Hessian + limit) is
+// Negative where the smaller eigenvalue is -limit or less: the determinant of (Hessian + limit) is
 // negative, or its trace is. No square root, and no comparison but of signs.
 template <int kFloats>
-ARCSTART_INLINE_BODY bool any_strong(const Lanes<kFloats> uu[kRows], const Lanes<kFloats> uv[kRows],
-                                     const Lanes<kFloats> vv[kRows], float limit) {
-  typename Register<kFloats>::Mask signs{};
-  for (int i = 0; i < kRows; ++i) {
-    const Lanes<kFloats> a = uu[i] + limit, b = vv[i] + limit;
-    const Lanes<kFloats> determinant = a * b - uv[i] * uv[i], trace = a + b;
-    typename Register<kFloats>::Mask bits;
-    std::memcpy(&bits, &determinant, sizeof bits);
-    signs |= bits;
-    std::memcpy(&bits, &trace, sizeof bits);
-    signs |= bits;
-  }
-  std::uint64_t words[kFloats / 2], all = 0;
-  std::memcpy(words, &signs, sizeof signs);
-  for (const std::uint64_t word : words) all |= word;
-  return (all & 0x80000000'80000000u) != 0;
+ARCSTART_INLINE_BODY typename Register<kFloats>::Mask strong(Lanes<kFloats> uu, Lanes<kFloats> uv,
+                                                             Lanes<kFloats> vv, float limit) {
+  using Mask = typename Register<kFloats>::Mask;
+  const Lanes<kFloats> a = uu + limit, b = vv + limit;
+  return (Mask)(a * b - uv * uv) | (Mask)(a + b);
 }
 
-// rows: of the four, that belong to the tile.
+// Of whole registers of pixels, or of all there are.
 template <int kFloats>
-void add_points(const RidgeTile& tile, const Extrema<kRows * kFloats>& extrema, int column, int row,
-                int rows, std::vector<RidgePoint>& points) {
-  for (int begin = 0; begin < rows * kFloats; begin += 8) {
-    static_assert(std::endian::native == std::endian::little && kRows * kFloats % 8 == 0);
-    std::uint64_t flags;  // of eight pixels, a byte each
-    std::memcpy(&flags, extrema.is_ridge + begin, sizeof flags);
-    for (; flags != 0; flags &= flags - 1) {
-      const int at = begin + std::countr_zero(flags) / 8;
-      if (at >= rows * kFloats) break;
-      const int u = column + at % kFloats, v = row + at / kFloats;
-      if (u < tile.first_column || u > tile.last_column) continue;
-      points.push_back({static_cast<float>(u) + extrema.du[at],
-                        static_cast<float>(v) + extrema.dv[at], extrema.nu[at], extrema.nv[at],
-                        extrema.curvature[at], u, v});
+ARCSTART_INLINE_BODY void take_points(const RidgeTile& tile, bool all, BentPixels<kFloats>& pixels,
+                                      std::vector<RidgePoint>& points) {
+  int begin = 0;
+  for (; all ? begin < pixels.count : begin + kFloats <= pixels.count; begin += kFloats) {
+    Extrema<kFloats> e;
+    find_extrema(tile.least_curvature, pixels, begin, e);
+    std::uint32_t bits = signs_of<kFloats>(load_as<typename Register<kFloats>::Mask>(e.is_ridge));
+    if (pixels.count - begin < kFloats) bits &= (1u << (pixels.count - begin)) - 1;
+    for (; bits != 0; bits &= bits - 1) {
+      const int i = std::countr_zero(bits);
+      points.push_back({e.u[i], e.v[i], e.nu[i], e.nv[i], e.curvature[i], e.column[i], e.row[i]});
     }
   }
+  if (begin > 0) keep_from(begin, pixels);
+}
+
+// Bit i: column i belongs to the tile.
+std::uint32_t columns_within(const RidgeTile& tile) {
+  std::uint32_t bits = 0;
+  for (int i = 0; i < kTileWidth; ++i)
+    if (tile.column + i >= tile.first_column && tile.column + i <= tile.last_column)
+      bits |= 1u << i;
+  return bits;
 }
 
 template <int kFloats>
 ARCSTART_INLINE_BODY void find_in_chunk(const RidgeTile& tile, const Planes& planes, int first_row,
-                                        int rows, Extrema<kRows * kFloats>& extrema,
+                                        int rows, BentPixels<kFloats>& pixels,
                                         std::vector<RidgePoint>& points) {
   const int half_width = tile.half_width;
+  const std::uint32_t columns = columns_within(tile);
   for (int row = 0; row < rows; row += kRows)
     for (int c = 0; c < kTileWidth; c += kFloats) {
       const int at = (row + half_width) * kTileWidth + c;
@@ -181,17 +174,21 @@ ARCSTART_INLINE_BODY void find_in_chunk(const RidgeTile& tile, const Planes& pla
       filter_columns<false, kFloats>(planes.second + at, tile.smooth, half_width, uu);
       filter_columns<true, kFloats>(planes.first + at, tile.first, half_width, uv);
       filter_columns<false, kFloats>(planes.smooth + at, tile.second, half_width, vv);
-      if (!any_strong<kFloats>(uu, uv, vv, tile.least_curvature)) continue;
+      std::uint32_t bits[kRows], any = 0;
+      for (int i = 0; i < kRows; ++i) {
+        bits[i] = signs_of<kFloats>(strong<kFloats>(uu[i], uv[i], vv[i], tile.least_curvature)) &
+                  (row + i < rows ? columns >> c : 0);
+        any |= bits[i];
+      }
+      if (any == 0) continue;
       filter_columns<false, kFloats>(planes.first + at, tile.smooth, half_width, u);
       filter_columns<true, kFloats>(planes.smooth + at, tile.first, half_width, v);
-      std::memcpy(extrema.u, u, sizeof u);
-      std::memcpy(extrema.v, v, sizeof v);
-      std::memcpy(extrema.uu, uu, sizeof uu);
-      std::memcpy(extrema.uv, uv, sizeof uv);
-      std::memcpy(extrema.vv, vv, sizeof vv);
-      find_extrema(tile.least_curvature, extrema);
-      add_points<kFloats>(tile, extrema, tile.column + c, first_row + row,
-                          std::min(kRows, rows - row), points);
+      // Only now, when those added last have long been written, so that none waits for it.
+      take_points(tile, false, pixels, points);
+      for (int i = 0; i < kRows; ++i)
+        if (bits[i] != 0)
+          add_pixels<kFloats>(bits[i], u[i], v[i], uu[i], uv[i], vv[i], tile.column + c,
+                              first_row + row + i, pixels);
     }
 }
 
@@ -200,7 +197,7 @@ ARCSTART_INLINE_BODY void find_ridge_points_in_body(const RidgeTile& tile,
                                                     std::vector<RidgePoint>& points) {
   const int half_width = tile.half_width;
   const Planes planes(half_width, tile.work);
-  Extrema<kRows * kFloats> extrema;
+  BentPixels<kFloats> pixels;
   for (int done = 0; done < tile.rows; done += kRowsOfChunk) {
     const int rows = std::min(kRowsOfChunk, tile.rows - done);
     if (done > 0)  // the last rows of the chunk before are in reach of this one's
@@ -212,8 +209,9 @@ ARCSTART_INLINE_BODY void find_ridge_points_in_body(const RidgeTile& tile,
       load_greys<kFloats>(tile, tile.row + done + i - half_width, planes.grey_stride,
                           planes.grey + i * planes.grey_stride);
     for (int i = begin; i < end; i += 2) filter_rows<kFloats>(tile, planes, i);
-    find_in_chunk<kFloats>(tile, planes, tile.row + done, rows, extrema, points);
+    find_in_chunk<kFloats>(tile, planes, tile.row + done, rows, pixels, points);
   }
+  take_points(tile, true, pixels, points);
 }
 ARCSTART_FOR_EACH_INSTRUCTION_SET(find_ridge_points_in,
                                   (const RidgeTile& tile, std::vector<RidgePoint>& points),
