@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "services/extraction/end_centres.hpp"
 #include "services/extraction/finer_centres.hpp"
 #include "services/extraction/stripe_quality.hpp"
 
@@ -174,11 +175,18 @@ void StripeExtractor::describe(const GreyImage& image, Stripe& stripe) {
 // and that goes with sigma. Noise of fine grain wants the larger sigma, of coarse grain the
 // smaller.
 void StripeExtractor::measure(const GreyImage& image) {
+  const std::size_t found = points_.size();
+  end_deviations_.clear();
+  follow_ends(image, kernels_, border(), selection_, points_, end_deviations_);
+  widths_.resize(points_.size(), 0);
   centres_.clear();
-  for (const RidgePoint& p : points_)
-    centres_.push_back({p.u, p.v,
-                        static_cast<float>(centre_deviation(p.curvature, used_sigma_, noise_)),
-                        static_cast<float>(used_sigma_)});
+  for (std::size_t i = 0; i < points_.size(); ++i) {
+    const RidgePoint& p = points_[i];
+    const double by_noise = centre_deviation(p.curvature, used_sigma_, noise_);
+    const double deviation =
+        i < found ? by_noise : std::hypot(by_noise, end_deviations_[i - found]);
+    centres_.push_back({p.u, p.v, static_cast<float>(deviation), static_cast<float>(used_sigma_)});
+  }
   scatter_ = scatter_of(selection_.branches, centres_, used_sigma_, &memory_);
   if (settings_.sigma_px != 0 || !settings_.smooth_course) return;
   const double share = settings_.measuring_sigma_per_width / settings_.sigma_per_width;

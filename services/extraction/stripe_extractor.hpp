@@ -77,6 +77,7 @@ class StripeExtractor {
   std::vector<RidgePoint> points_;
   std::vector<Chain> chains_;
   std::vector<MeasuredCentre> centres_, finer_;  // of each point
+  std::vector<float> end_deviations_;  // of the last points, which follow_ends has added; px
   CentreScatter scatter_;
   GaussianKernels measuring_kernels_;
   std::vector<RidgePoint> about_, measured_;

@@ -1,0 +1,27 @@
+// Centres in the last pixels of a stripe's branches, where the Hessian no longer tells the line's
+// direction.
+#pragma once
+
+#include <vector>
+
+#include "services/extraction/gaussian_kernels.hpp"
+#include "services/extraction/grey_image.hpp"
+#include "services/extraction/ridge_point.hpp"
+#include "services/extraction/selection.hpp"
+
+namespace arcstart {
+
+// Where a stripe with a white top ends, grey values bend as much along it as across: the
+// eigenvectors turn, ridge points leave the middle sideways, and soon there is none. So such a
+// branch is followed on in the direction it had, with the greatest grey value across that direction
+// for its centre, as long as the bend there is half of what it was: at the edge of a surface it is
+// half. Points that have turned off are replaced. At most 1.5 sigma are followed, nothing nearer
+// than border to the image's border or than sigma to another chosen branch.
+//
+// Adds to points, and for each point added, its standard deviation by that of the direction to
+// deviations; px.
+void follow_ends(const GreyImage& image, const GaussianKernels& kernels, int border,
+                 Selection& selection, std::vector<RidgePoint>& points,
+                 std::vector<float>& deviations);
+
+}  // namespace arcstart
