@@ -6,18 +6,17 @@
 namespace arcstart {
 namespace {
 
-constexpr double kLongest = 1.5;  // followed; of sigma
+constexpr double kReach = 1.5;  // of sigma: points looked for anew, and as many beyond them
 // Points at the end that its direction is not taken from, and those before them that it is; of
 // sigma.
 constexpr double kUnlikeEnd = 0.5, kDirectionFrom = 3;
 constexpr int kFewestOfDirection = 15;
 constexpr double kLeastShare = 0.5;   // of the bend there
 constexpr double kFarthestOff = 0.5;  // of sigma, from the line on
-constexpr float kTurned = 0.966f;     // cosine of 15 degrees
-// Bend along the stripe, of that across it: at the end of a Gaussian stripe, looked at with the
-// usual sigma of 1.3 times its width, it is 0.46 at most.
-constexpr double kBluntEnd = 0.5;
-constexpr double kDirectionDeviation = 0.05;  // radians
+// Bend along the stripe, of that across it: at a sharp end it is 0.46 at most, for a Gaussian
+// stripe and a sigma of 1.3 times its width. Where a stripe just fades it is small.
+constexpr double kSharpEnd = 0.4;
+constexpr double kDirectionDeviation = 0.05;  // radians, of a line through some ten points
 
 struct Derivatives {
   double u, v, uu, uv, vv;
@@ -83,20 +82,12 @@ class End {
     return true;
   }
 
-  // Of the points at the end.
-  int turned_off() const {
-    int turned = static_cast<int>(kLongest * kernels_.sigma);
-    const auto is_turned = [&](const RidgePoint& p) {
-      return std::abs(p.normal_u * normal_u_ + p.normal_v * normal_v_) < kTurned;
-    };
-    while (turned > 0 && !is_turned(point(turned - 1))) --turned;
-    return turned;
-  }
+  bool ends_here() const { return ends_here_; }  // as far as it was followed
 
   // The centre k lines (columns or rows) on from the last point that has not turned off. False
   // where there is none.
-  bool follow(int turned, int k, int border, RidgePoint& centre, float& deviation) const {
-    const int at = line(point(turned)) + (last_ ? k : -k);
+  bool follow(int anew, int k, int border, RidgePoint& centre, float& deviation) {
+    const int at = line(point(anew)) + (last_ ? k : -k);
     const double predicted = across_at_0_ + slope_ * at;
     int across = static_cast<int>(std::lround(predicted));
     for (int i = 0; i < 3; ++i) {
@@ -109,7 +100,7 @@ class End {
                             d.vv * normal_v_ * normal_v_);
       if (bend < kLeastShare * bend_) return false;
       const double bend_along = -(d.uu + d.vv) - bend;
-      if (k == 1 && (bend_along < kBluntEnd * bend || image_.at(column, row) < 255)) return false;
+      ends_here_ |= bend_along >= kSharpEnd * bend && image_.at(column, row) == 255;
       const double t = (d.u * normal_u_ + d.v * normal_v_) / bend;
       centre = {static_cast<float>(column + t * normal_u_),
                 static_cast<float>(row + t * normal_v_),
@@ -154,6 +145,7 @@ class End {
   const Branch& branch_;
   bool last_;
   double slope_ = 0, across_at_0_ = 0, normal_u_ = 0, normal_v_ = 0, bend_ = 0;
+  bool ends_here_ = false;
 };
 
 }  // namespace
@@ -161,32 +153,30 @@ class End {
 void follow_ends(const GreyImage& image, const GaussianKernels& kernels, int border,
                  Selection& selection, std::vector<RidgePoint>& points,
                  std::vector<float>& deviations) {
-  const int longest = static_cast<int>(kLongest * kernels.sigma);
+  const int anew = static_cast<int>(kReach * kernels.sigma);
   for (Branch& branch : selection.branches) {
     if (!branch.chosen) continue;
     for (const bool last : {false, true}) {
       End end(image, kernels, selection, points, branch, last);
       if (!end.find_direction()) continue;
-      const int turned = end.turned_off();
       const std::size_t before = points.size();
       RidgePoint centre{};
       float deviation = 0;
-      for (int k = 1; k <= turned + longest && end.follow(turned, k, border, centre, deviation);
-           ++k) {
+      for (int k = 1; k <= 2 * anew && end.follow(anew, k, border, centre, deviation); ++k) {
         points.push_back(centre);
         deviations.push_back(deviation);
       }
       const auto followed = static_cast<int>(points.size() - before);
-      if (followed <= turned) {
+      if (followed < anew || !end.ends_here()) {
         points.resize(before);
         deviations.resize(deviations.size() - static_cast<std::size_t>(followed));
         continue;
       }
       auto& indices = branch.points;
       if (last)
-        indices.resize(indices.size() - static_cast<std::size_t>(turned));
+        indices.resize(indices.size() - static_cast<std::size_t>(anew));
       else
-        indices.erase(indices.begin(), indices.begin() + turned);
+        indices.erase(indices.begin(), indices.begin() + anew);
       for (int k = 0; k < followed; ++k)
         indices.insert(last ? indices.end() : indices.begin(), static_cast<int>(before) + k);
     }

@@ -12,11 +12,11 @@
 namespace arcstart {
 
 // Where a stripe with a white top ends, grey values bend as much along it as across: the
-// eigenvectors turn, ridge points leave the middle sideways, and soon there is none. So such a
-// branch is followed on in the direction it had, with the greatest grey value across that direction
-// for its centre, as long as the bend there is half of what it was: at the edge of a surface it is
-// half. Points that have turned off are replaced. At most 1.5 sigma are followed, nothing nearer
-// than border to the image's border or than sigma to another chosen branch.
+// eigenvectors turn, ridge points leave the middle sideways, and soon there is none. So the
+// last 1.5 sigma of such a branch are looked for anew, and as much beyond them, in the direction
+// that the branch had before: the greatest grey value across it, as long as the bend there is half
+// of what it was, as it is at the edge of a surface. Nothing is put nearer than border to the
+// image's border or than sigma to another chosen branch.
 //
 // Adds to points, and for each point added, its standard deviation by that of the direction to
 // deviations; px.

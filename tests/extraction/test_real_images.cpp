@@ -46,7 +46,7 @@ TEST_CASE("etna_calib4: the stripe in nearly every row, straight to a twentieth 
     const Found found = find(path);
     INFO(path.filename().string() << " share " << found.share << " rms " << found.rms
                                   << " px, sigma " << found.sigma);
-    CHECK(found.share >= 0.99);
+    CHECK(found.share >= 0.995);
     CHECK(found.rms >= 0);
     CHECK(found.rms <= 0.06);
     CHECK(found.sigma > 4);
@@ -64,7 +64,7 @@ TEST_CASE("etna_calib3: the stripe in nearly every row") {
     const Found found = find(path);
     INFO(path.filename().string() << " share " << found.share << " rms " << found.rms
                                   << " px, sigma " << found.sigma);
-    CHECK(found.share >= 0.985);  // in one image it also shows in the last rows, beside a step
+    CHECK(found.share >= 0.995);
     CHECK(found.rms <= 0.10);
   }
 }
