@@ -17,7 +17,7 @@ struct BentPixels {
   static constexpr int kMost = 5 * kFloats;  // of four registers, and what was left before
   static constexpr int kRoom = kMost + kFloats;
   alignas(64) float u[kRoom], v[kRoom], uu[kRoom], uv[kRoom], vv[kRoom];
-  alignas(64) float column[kRoom], row[kRoom];
+  alignas(64) float column[kRoom]{}, row[kRoom]{};  // whole numbers also where no pixel is yet
   int count = 0;
 };
 
