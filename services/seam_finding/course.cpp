@@ -107,14 +107,18 @@ Course course_of(const Stations& stations, const CourseSearch& search,
 
 Course find_course(const ScanCloud& cloud, const std::array<JointPlate, 2>& plates,
                    const Line& line, const CourseSearch& search) {
-  const Stations stations = stations_along(cloud, plates, line, search);
-  return course_of(stations, search, [&](int from, int to) {
+  Stations stations = stations_along(cloud, plates, line, search);
+  Course course = course_of(stations, search, [&](int from, int to) {
     return hidden_between(cloud, plates, line, stations, from, to, search.tolerance);
   });
+  course.stations = std::move(stations);
+  return course;
 }
 
-Course find_course(const Stations& stations, const CourseSearch& search) {
-  return course_of(stations, search, nullptr);
+Course find_course(Stations stations, const CourseSearch& search) {
+  Course course = course_of(stations, search, nullptr);
+  course.stations = std::move(stations);
+  return course;
 }
 
 double centroid_of_first(const ScanCloud& cloud, const std::array<JointPlate, 2>& plates,

@@ -17,6 +17,7 @@ struct Course {
   bool ends_outside = false;
   int missing_before = 0;  // stripes in a row, right before the begin, of which nothing is known
   int missing_after = 0;
+  Stations stations;  // by which it was found
 };
 
 // The longest stretch of the line on which both plates have points, with what follows behind short
@@ -25,7 +26,7 @@ struct Course {
 // is none.
 Course find_course(const ScanCloud& cloud, const std::array<JointPlate, 2>& plates,
                    const Line& line, const CourseSearch& search);
-Course find_course(const Stations& stations, const CourseSearch& search);
+Course find_course(Stations stations, const CourseSearch& search);
 
 // The paper's way: where along the line the centroid of the first `count` points of both plates
 // lies, from the course's begin on; mm.

@@ -4,8 +4,6 @@
 #include <cmath>
 #include <vector>
 
-#include "services/seam_finding/plate_stripes.hpp"
-
 namespace arcstart {
 namespace {
 
@@ -111,9 +109,11 @@ double pixel_along(const ScanCloud& cloud, int end, int next, const Line& line,
 }
 
 std::optional<Place> place_of(const ScanCloud& cloud, const std::vector<int>& run,
-                              const JointPlate& plate, const JointPlate& other, const Line& line,
-                              SeamSide side, const EdgeSearch& search) {
+                              const PlateStripes& stripes, SeamSide side,
+                              const EdgeSearch& search) {
   if (run.size() < 3) return std::nullopt;
+  const JointPlate& plate = stripes.plate;
+  const Line& line = stripes.line;
   const bool rising = line.along(cloud.points[run.back()]) > line.along(cloud.points[run.front()]);
   const bool at_back = rising == (side == SeamSide::kEnd);
   const int last = at_back ? run.back() : run.front();
@@ -124,13 +124,13 @@ std::optional<Place> place_of(const ScanCloud& cloud, const std::vector<int>& ru
   if (joined && std::abs(plate.plane.signed_distance(cloud.points[beyond])) <= search.tolerance)
     return std::nullopt;  // the plate goes on
   // Through the seam to the other plate.
-  if (joined && std::binary_search(other.points.begin(), other.points.end(), beyond))
+  if (joined &&
+      std::binary_search(stripes.other.points.begin(), stripes.other.points.end(), beyond))
     return std::nullopt;
 
   const Eigen::Vector3d direction = direction_at_end(cloud, run, at_back);
   const double slant = std::abs(direction.dot(line.direction));
   if (slant < kLeastSlant) return std::nullopt;
-  const Eigen::Vector3d away = away_from_seam(plate, other);
   const double outward = side == SeamSide::kEnd ? 1 : -1;
   Place place;
   if (cloud.origins[last].segment_end) {
@@ -138,9 +138,9 @@ std::optional<Place> place_of(const ScanCloud& cloud, const std::vector<int>& ru
     const auto point = on_plate(cloud, plate, last);
     if (!point) return std::nullopt;
     const int inner = at_back ? run[run.size() - 2] : run[1];
-    place.pixel = pixel_along(cloud, last, inner, line, away);
+    place.pixel = pixel_along(cloud, last, inner, line, stripes.away);
     place.along = line.along(*point) + outward * search.shortening_px * place.pixel;
-    place.away = away.dot(*point - line.point);
+    place.away = stripes.away.dot(*point - line.point);
     place.deviation = std::hypot(kEndDeviation * place.pixel, kBeam * search.noise);
     place.sharp = true;
   } else {
@@ -150,7 +150,7 @@ std::optional<Place> place_of(const ScanCloud& cloud, const std::vector<int>& ru
     const auto cut = cut_beyond(cloud, plate, line, last, at_back, search);
     const Eigen::Vector3d point = cloud.points[last] + 0.5 * step * direction;
     place.along = cut ? *cut : line.along(point);
-    place.away = away.dot(point - line.point);
+    place.away = stripes.away.dot(point - line.point);
     place.deviation =
         cut ? std::hypot(kCutNoise, kBeam * search.noise) : slant * step / std::sqrt(12.0);
     place.sharp = cut.has_value();
@@ -205,17 +205,13 @@ std::vector<Place> largest_agreement(const std::vector<Place>& places, const Edg
 
 }  // namespace
 
-std::optional<PlateEdge> find_edge(const ScanCloud& cloud, const JointPlate& plate,
-                                   const JointPlate& other, const Line& line, SeamSide side,
-                                   const EdgeSearch& search) {
-  if (!cloud.organised()) return std::nullopt;
-  const Eigen::Vector3d away = away_from_seam(plate, other);
+std::optional<PlateEdge> find_edge(const ScanCloud& cloud, const PlateStripes& stripes,
+                                   SeamSide side, const EdgeSearch& search) {
   std::vector<Place> places;
-  const auto runs = plate_stripes(cloud, plate, line, away, search.tolerance);
   // What lies farther from the seam is the plate's other edge, along the seam.
-  const double far = reach_of(cloud, runs, line, away) - kFarEdge;
-  for (const auto& run : runs)
-    if (const auto place = place_of(cloud, run, plate, other, line, side, search))
+  const double far = stripes.reach - kFarEdge;
+  for (const auto& run : stripes.runs)
+    if (const auto place = place_of(cloud, run, stripes, side, search))
       if (place->away < far && (place->sharp || place->away > kNearSeam)) places.push_back(*place);
   std::vector<Place> on_edge = largest_agreement(places, search);
   // What is seen of the plate before something else tells no more than that it reaches so far.

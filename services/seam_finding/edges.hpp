@@ -3,7 +3,7 @@
 
 #include <optional>
 
-#include "services/seam_finding/stations.hpp"
+#include "services/seam_finding/plate_stripes.hpp"
 
 namespace arcstart {
 
@@ -28,8 +28,7 @@ struct PlateEdge {
 // each at another distance from the seam, and each known to a pixel however few of its inner points
 // are kept. The edge is the line through these places; a plate is cut square unless they say
 // otherwise. Nothing where no stripe leaves the plate there, and in a cloud without stripes.
-std::optional<PlateEdge> find_edge(const ScanCloud& cloud, const JointPlate& plate,
-                                   const JointPlate& other, const Line& line, SeamSide side,
-                                   const EdgeSearch& search);
+std::optional<PlateEdge> find_edge(const ScanCloud& cloud, const PlateStripes& stripes,
+                                   SeamSide side, const EdgeSearch& search);
 
 }  // namespace arcstart

@@ -161,14 +161,14 @@ EndVisibility seen_beyond(const ScanCloud& cloud, const Stations& stations,
 // How far both plates are seen to reach, along the line, where that is behind something that hides
 // the seam; nothing where it is not, or no farther than `end` by more than `width`.
 std::optional<double> both_reach(const ScanCloud& cloud, const std::array<JointPlate, 2>& plates,
-                                 const Line& line, const Stations& stations, SeamSide side,
-                                 double end, double width, const EndSearch& search) {
-  if (!stands_before(cloud, plates, line, stations, end, kBeside)) return std::nullopt;
+                                 const std::array<PlateStripes, 2>& stripes,
+                                 const Stations& stations, SeamSide side, double end, double width,
+                                 const EndSearch& search) {
+  if (!stands_before(cloud, plates, stripes[0].line, stations, end, kBeside)) return std::nullopt;
   const double outward = side == SeamSide::kEnd ? 1 : -1;
   double reach = std::numeric_limits<double>::infinity();
   for (int j = 0; j < 2; ++j)
-    reach =
-        std::min(reach, plate_extent(cloud, plates[j], plates[1 - j], line, side, end, search).on);
+    reach = std::min(reach, plate_extent(cloud, stripes[j], side, end, search).on);
   if (!(reach > outward * end + width)) return std::nullopt;
   return outward * reach;
 }
@@ -176,8 +176,9 @@ std::optional<double> both_reach(const ScanCloud& cloud, const std::array<JointP
 // About a place between two stripes. Where `reach` is given no stripe shows the seam between the
 // course and that place, up to which both plates are there.
 SeamEnd find_end(const ScanCloud& cloud, const std::array<JointPlate, 2>& plates, const Line& line,
-                 double along, std::optional<double> reach, const Stations& stations, SeamSide side,
-                 const EndSearch& search) {
+                 double along, std::optional<double> reach,
+                 const std::array<PlateStripes, 2>& stripes, const Stations& stations,
+                 SeamSide side, const EndSearch& search) {
   const bool begin = side == SeamSide::kBegin;
   const double outward = begin ? -1 : 1;
   SeamEnd end;
@@ -204,14 +205,14 @@ SeamEnd find_end(const ScanCloud& cloud, const std::array<JointPlate, 2>& plates
     edge_search.tolerance = search.tolerance;
     edge_search.noise = search.noise;
     edge_search.shortening_px = search.shortening_px;
-    edges[j] = find_edge(cloud, plates[j], plates[1 - j], line, side, edge_search);
+    edges[j] = find_edge(cloud, stripes[j], side, edge_search);
   }
   std::array<PlateExtent, 2> extents;
   for (int j = 0; j < 2; ++j) {
     if (!edges[j] && brackets[j].runs_on) continue;
     PlateExtent& extent = extents[j];
-    extent = plate_extent(cloud, plates[j], plates[1 - j], line, side, end.along, search,
-                          crossings_of(cloud, stations, j));
+    extent =
+        plate_extent(cloud, stripes[j], side, end.along, search, crossings_of(cloud, stations, j));
     if (edges[j] && !possible(*edges[j], extent, outward)) edges[j].reset();
     // Where stripes cross the one plate's edge, they may leave this one unseen.
     const double slant = edges[1 - j] ? std::max(0.0, outward * stations.slant[j]) : 0;
@@ -225,8 +226,7 @@ SeamEnd find_end(const ScanCloud& cloud, const std::array<JointPlate, 2>& plates
     searches[j].beyond = 0;
     searches[j].from = edges[1 - j]->along - kFlushWithin;
     searches[j].to = edges[1 - j]->along + kFlushWithin;
-    if (const auto flush = find_edge(cloud, plates[j], plates[1 - j], line, side, searches[j]))
-      edges[j] = flush;
+    if (const auto flush = find_edge(cloud, stripes[j], side, searches[j])) edges[j] = flush;
   }
   // A lone stripe that ends before the other plate does may end in a shadow, or behind something:
   // the plate reaches at least so far.
@@ -242,10 +242,10 @@ SeamEnd find_end(const ScanCloud& cloud, const std::array<JointPlate, 2>& plates
   if (!edges[0] && !edges[1]) {
     const auto behind =
         reach ? std::nullopt
-              : both_reach(cloud, plates, line, stations, side, end.along, width, search);
+              : both_reach(cloud, plates, stripes, stations, side, end.along, width, search);
     if (behind)  // the stripe that shows a plate so far need not show it at the seam
-      return find_end(cloud, plates, line, *behind + outward * width / 2, behind, stations, side,
-                      search);
+      return find_end(cloud, plates, line, *behind + outward * width / 2, behind, stripes, stations,
+                      side, search);
     between_brackets(end, brackets, outward);
     end.visibility =
         seen_beyond(cloud, stations, plates, line, end.along, outward, search.tolerance);
@@ -274,13 +274,14 @@ SeamEnd find_end(const ScanCloud& cloud, const std::array<JointPlate, 2>& plates
 }  // namespace
 
 SeamEnd find_end(const ScanCloud& cloud, const std::array<JointPlate, 2>& plates, const Line& line,
-                 const Course& course, const Stations& stations, SeamSide side,
+                 const Course& course, const std::array<PlateStripes, 2>& stripes, SeamSide side,
                  const EndSearch& search) {
   const bool begin = side == SeamSide::kBegin;
   const double along = begin ? course.begin : course.end;
   if (!(begin ? course.begins_outside : course.ends_outside))
-    return find_end(cloud, plates, line, along, std::nullopt, stations, side, search);
-  const Bracket bracket = bracket_of(stations, 0, along, begin ? -1 : 1);
+    return find_end(cloud, plates, line, along, std::nullopt, stripes, course.stations, side,
+                    search);
+  const Bracket bracket = bracket_of(course.stations, 0, along, begin ? -1 : 1);
   SeamEnd end{along, std::pow(bracket.outer - bracket.inner, 2) / 12};
   end.visibility = EndVisibility::kOutside;
   return end;

@@ -24,8 +24,9 @@ struct EndSearch {
 // The seam begins where both plates have begun: at the later of their edges; where the two agree
 // within their deviations, at their mean by variance. A plate whose edge no stripe crosses begins
 // somewhere between the last stripe that does not show it at the seam and the first that does.
+// stripes: of the plates, in the same tolerance.
 SeamEnd find_end(const ScanCloud& cloud, const std::array<JointPlate, 2>& plates, const Line& line,
-                 const Course& course, const Stations& stations, SeamSide side,
+                 const Course& course, const std::array<PlateStripes, 2>& stripes, SeamSide side,
                  const EndSearch& search);
 
 }  // namespace arcstart

@@ -137,7 +137,9 @@ SeamEnd find_flat_end(const ScanCloud& cloud, const Joint& joint,
     edge_search.tolerance = search.tolerance;
     edge_search.noise = search.noise;
     edge_search.shortening_px = search.shortening_px;
-    auto edge = find_edge(cloud, joint.plates[j], joint.plates[1 - j], border, side, edge_search);
+    const PlateStripes stripes =
+        plate_stripes(cloud, joint.plates[j], joint.plates[1 - j], border, search.tolerance);
+    auto edge = find_edge(cloud, stripes, side, edge_search);
     if (edge) {
       edge->along = joint.line.along(border.at(edge->along));
       edge->variance = kEdgeFactor * edge->variance + kEdgeFloor * kEdgeFloor;
@@ -146,8 +148,7 @@ SeamEnd find_flat_end(const ScanCloud& cloud, const Joint& joint,
       edges.push_back(*edge);
     } else {
       narrow(plate_end,
-             plate_extent(cloud, joint.plates[j], joint.plates[1 - j], border, side,
-                          border.along(joint.line.at(end.along)), search),
+             plate_extent(cloud, stripes, side, border.along(joint.line.at(end.along)), search),
              [&](double place) { return outward * joint.line.along(border.at(outward * place)); });
     }
     ends.push_back(plate_end);

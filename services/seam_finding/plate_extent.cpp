@@ -3,8 +3,6 @@
 #include <algorithm>
 #include <cmath>
 
-#include "services/seam_finding/plate_stripes.hpp"
-
 namespace arcstart {
 namespace {
 
@@ -42,19 +40,17 @@ class MostOfRuns {
 
 }  // namespace
 
-PlateExtent plate_extent(const ScanCloud& cloud, const JointPlate& plate, const JointPlate& other,
-                         const Line& line, SeamSide side, double near, const EndSearch& search,
-                         const StripeCrossings& crossings) {
+PlateExtent plate_extent(const ScanCloud& cloud, const PlateStripes& stripes, SeamSide side,
+                         double near, const EndSearch& search, const StripeCrossings& crossings) {
   PlateExtent extent;
   if (!cloud.organised()) return extent;
   const double outward = side == SeamSide::kEnd ? 1 : -1;
-  const Eigen::Vector3d away = away_from_seam(plate, other);
+  const Line& line = stripes.line;
+  const Eigen::Vector3d& away = stripes.away;
   const double slack = kBeam * search.noise;
-  const auto stripes = plate_stripes(cloud, plate, line, away, search.tolerance);
-  const double reach = std::min(kFarthest, reach_of(cloud, stripes, line, away));
-  const double far = reach - kFarEdge;
+  const double reach = std::min(kFarthest, stripes.reach), far = reach - kFarEdge;
   MostOfRuns on(cloud);
-  for (const auto& run : stripes)
+  for (const auto& run : stripes.runs)
     for (const int i : run)
       if (const double r = away.dot(cloud.points[i] - line.point); r <= reach)
         on.add(i, outward * line.along(cloud.points[i]) - kSquareCut * r - slack);
@@ -69,13 +65,13 @@ PlateExtent plate_extent(const ScanCloud& cloud, const JointPlate& plate, const 
                  std::abs(line.along(cloud.points[last]) - near)) > kAround)
       continue;
     for (int i = stripe.first; i <= last; ++i) {
-      const auto through = seen_through(cloud, plate.plane, i, search.tolerance);
+      const auto through = seen_through(cloud, stripes.plate.plane, i, search.tolerance);
       if (!through) continue;
       const double r = away.dot(*through - line.point);
       const double place = outward * line.along(*through) + kSquareCut * r + slack;
       if (r <= kNearSeam || r >= far) continue;
       if (place > extent.on) past.add(i, -place);
-      if (k >= crossings.along.size() || !crossings.along[k] || !stripes[k].empty()) continue;
+      if (k >= crossings.along.size() || !crossings.along[k] || !stripes.runs[k].empty()) continue;
       const double crossing =
           outward * (*crossings.along[k] + crossings.slant * std::max(0.0, r - kAskew)) +
           kSquareCut * r + slack;

@@ -29,8 +29,8 @@ struct StripeCrossings {
 // a stripe that falls behind the plate all along its width tells that none is where it crosses the
 // plate's plane. Looks at the stripes about `near`, along the line;
 // mm. Nothing is known in a cloud without stripes.
-PlateExtent plate_extent(const ScanCloud& cloud, const JointPlate& plate, const JointPlate& other,
-                         const Line& line, SeamSide side, double near, const EndSearch& search,
+PlateExtent plate_extent(const ScanCloud& cloud, const PlateStripes& stripes, SeamSide side,
+                         double near, const EndSearch& search,
                          const StripeCrossings& crossings = {});
 
 }  // namespace arcstart

@@ -10,6 +10,21 @@ constexpr double kGap = 4;           // between points on one piece of a plate, 
 constexpr int kLeastBehind = 2;      // points that chance does not put behind a plate
 constexpr double kLeastSight = 0.1;  // sine of the angle between a line of sight and a plate
 
+// Half of the stripes that show the plate reach so far.
+double usual_reach(const ScanCloud& cloud, const PlateStripes& stripes) {
+  std::vector<double> reaches;
+  for (const auto& run : stripes.runs) {
+    double reach = 0;
+    for (const int i : run)
+      reach = std::max(reach, stripes.away.dot(cloud.points[i] - stripes.line.point));
+    if (reach > 0) reaches.push_back(reach);
+  }
+  if (reaches.empty()) return 0;
+  const auto middle = reaches.begin() + static_cast<std::ptrdiff_t>(reaches.size() / 2);
+  std::nth_element(reaches.begin(), middle, reaches.end());
+  return *middle;
+}
+
 }  // namespace
 
 std::optional<Eigen::Vector3d> seen_through(const ScanCloud& cloud, const Plane& plane, int point,
@@ -22,17 +37,19 @@ std::optional<Eigen::Vector3d> seen_through(const ScanCloud& cloud, const Plane&
   return cloud.points[point] - sight * (depth / toward);
 }
 
-PlateStripes plate_stripes(const ScanCloud& cloud, const JointPlate& plate, const Line& line,
-                           const Eigen::Vector3d& away, double tolerance) {
-  const auto reach = [&](const Eigen::Vector3d& p) { return away.dot(p - line.point); };
-  PlateStripes stripes(cloud.stripes.size());
+PlateStripes plate_stripes(const ScanCloud& cloud, const JointPlate& plate, const JointPlate& other,
+                           const Line& line, double tolerance) {
+  PlateStripes stripes{plate, other, line, away_from_seam(plate, other),
+                       std::vector<std::vector<int>>(cloud.stripes.size())};
+  if (!cloud.organised()) return stripes;
+  const auto reach = [&](const Eigen::Vector3d& p) { return stripes.away.dot(p - line.point); };
   for (const int i : plate.points)
     if (reach(cloud.points[i]) > tolerance &&
         std::abs(plate.plane.signed_distance(cloud.points[i])) <= tolerance)
-      stripes[cloud.origins[i].stripe].push_back(i);
+      stripes.runs[cloud.origins[i].stripe].push_back(i);
 
-  for (std::size_t k = 0; k < stripes.size(); ++k) {
-    std::vector<int>& run = stripes[k];
+  for (std::size_t k = 0; k < stripes.runs.size(); ++k) {
+    std::vector<int>& run = stripes.runs[k];
     const auto parted = std::adjacent_find(run.begin(), run.end(), [&](int a, int b) {
       return b > a + 1 && std::abs(reach(cloud.points[b]) - reach(cloud.points[a])) > kGap;
     });
@@ -54,21 +71,15 @@ PlateStripes plate_stripes(const ScanCloud& cloud, const JointPlate& plate, cons
       break;
     }
   }
+  stripes.reach = usual_reach(cloud, stripes);
   return stripes;
 }
 
-double reach_of(const ScanCloud& cloud, const PlateStripes& stripes, const Line& line,
-                const Eigen::Vector3d& away) {
-  std::vector<double> reaches;
-  for (const auto& run : stripes) {
-    double reach = 0;
-    for (const int i : run) reach = std::max(reach, away.dot(cloud.points[i] - line.point));
-    if (reach > 0) reaches.push_back(reach);
-  }
-  if (reaches.empty()) return 0;
-  const auto middle = reaches.begin() + static_cast<std::ptrdiff_t>(reaches.size() / 2);
-  std::nth_element(reaches.begin(), middle, reaches.end());
-  return *middle;
+std::array<PlateStripes, 2> plate_stripes(const ScanCloud& cloud,
+                                          const std::array<JointPlate, 2>& plates, const Line& line,
+                                          double tolerance) {
+  return {plate_stripes(cloud, plates[0], plates[1], line, tolerance),
+          plate_stripes(cloud, plates[1], plates[0], line, tolerance)};
 }
 
 }  // namespace arcstart

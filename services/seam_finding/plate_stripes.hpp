@@ -1,6 +1,7 @@
 // What the stripes of a scan show of one plate of a joint.
 #pragma once
 
+#include <array>
 #include <optional>
 #include <vector>
 
@@ -8,17 +9,25 @@
 
 namespace arcstart {
 
-// A stripe's points on the plate, on its open side, in the stripe's order, for every stripe of the
-// scan. What lies in the plate's plane beyond a place where something is seen behind it is another
-// thing of the same height, and left out. tolerance: of a point's distance from the plate; mm.
-using PlateStripes = std::vector<std::vector<int>>;
-PlateStripes plate_stripes(const ScanCloud& cloud, const JointPlate& plate, const Line& line,
-                           const Eigen::Vector3d& away, double tolerance);
+struct PlateStripes {
+  const JointPlate &plate, &other;  // of the joint
+  Line line;                        // the seam's
+  Eigen::Vector3d away;             // in the plate, away from the seam; unit
+  // A stripe's points on the plate, on its open side, in the stripe's order, for every stripe of
+  // the scan; none in a cloud without stripes. What lies in the plate's plane beyond a place where
+  // something is seen behind it is another thing of the same height, and left out.
+  std::vector<std::vector<int>> runs;
+  // How far the plate reaches away from the seam: half of the stripes that show it reach so far;
+  // mm, 0 where none does.
+  double reach = 0;
+};
 
-// How far the plate reaches away from the seam: half of the stripes that show it reach so far; mm,
-// 0 where none does.
-double reach_of(const ScanCloud& cloud, const PlateStripes& stripes, const Line& line,
-                const Eigen::Vector3d& away);
+// The plates must outlive what is returned. tolerance: of a point's distance from the plate; mm.
+PlateStripes plate_stripes(const ScanCloud& cloud, const JointPlate& plate, const JointPlate& other,
+                           const Line& line, double tolerance);
+std::array<PlateStripes, 2> plate_stripes(const ScanCloud& cloud,
+                                          const std::array<JointPlate, 2>& plates, const Line& line,
+                                          double tolerance);
 
 // Where the line of sight to a point behind the plate meets the plate's plane; nothing for a point
 // that is not behind it, or that is seen along the plane.

@@ -52,18 +52,17 @@ std::array<SeamEnd, 2> ends_of(const ScanCloud& scan, const Joint& joint, const 
       ends[side == SeamSide::kEnd] = find_flat_end(scan, joint, stations, side, search);
     return ends;
   }
-  const Stations stations = stations_along(scan, joint.plates, joint.line, course_search(scales));
+  const auto stripes = plate_stripes(scan, joint.plates, joint.line, scales.tolerance);
   for (const SeamSide side : {SeamSide::kBegin, SeamSide::kEnd})
     ends[side == SeamSide::kEnd] =
-        find_end(scan, joint.plates, joint.line, joint.course, stations, side, search);
+        find_end(scan, joint.plates, joint.line, joint.course, stripes, side, search);
   return ends;
 }
 
 std::vector<SurveyPlace> survey_of(const ScanCloud& scan, const Joint& joint, double start,
                                    double end, const Scales& scales) {
   if (!joint.flat) return survey_seam(scan, joint.plates, joint.line, start, end, scales.spacing);
-  const auto stations = stations_by_border(scan, joint, course_search(scales));
-  return survey_flat(scan, joint, stations_of_both(stations), start, end, scales.spacing);
+  return survey_flat(scan, joint, joint.course.stations, start, end, scales.spacing);
 }
 
 // Where it starts and ends, and how sure that is.

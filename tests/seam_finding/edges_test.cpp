@@ -46,6 +46,12 @@ Made make(double begin, double slant, bool something_before, unsigned seed) {
   return made;
 }
 
+std::optional<PlateEdge> edge_of(const Made& made, SeamSide side, const EdgeSearch& search) {
+  return find_edge(made.cloud,
+                   plate_stripes(made.cloud, made.plate, made.other, made.line, search.tolerance),
+                   side, search);
+}
+
 }  // namespace
 
 TEST_CASE("the edge of a plate is found to a fraction of the stripes' distance") {
@@ -54,14 +60,12 @@ TEST_CASE("the edge of a plate is found to a fraction of the stripes' distance")
     for (unsigned seed = 1; seed <= 20; ++seed) {
       const double begin = 0.17 * seed;
       const Made made = make(begin, slant, false, seed);
-      const auto edge = find_edge(made.cloud, made.plate, made.other, made.line, SeamSide::kBegin,
-                                  {begin - 3, begin + 3, 0, 0.5, 0.02, 0.15});
+      const auto edge = edge_of(made, SeamSide::kBegin, {begin - 3, begin + 3, 0, 0.5, 0.02, 0.15});
       REQUIRE(edge);
       CHECK(edge->along == Approx(begin).margin(0.15));
       CHECK_FALSE(edge->occluded);
       within += std::pow(edge->along - begin, 2) <= 4 * edge->variance;
-      const auto end = find_edge(made.cloud, made.plate, made.other, made.line, SeamSide::kEnd,
-                                 {97, 103, 0, 0.5, 0.02, 0.15});
+      const auto end = edge_of(made, SeamSide::kEnd, {97, 103, 0, 0.5, 0.02, 0.15});
       REQUIRE(end);
       CHECK(end->along == Approx(100).margin(0.15));
     }
@@ -70,12 +74,9 @@ TEST_CASE("the edge of a plate is found to a fraction of the stripes' distance")
 }
 
 TEST_CASE("stripes square to the seam cross no edge; what lies before a plate hides its edge") {
-  CHECK_FALSE(find_edge(make(0, 0, false, 1).cloud, make(0, 0, false, 1).plate,
-                        make(0, 0, false, 1).other, {{0, 0, 0}, {1, 0, 0}}, SeamSide::kBegin,
-                        {-3, 3, 0, 0.5, 0.02, 0.5}));
+  CHECK_FALSE(edge_of(make(0, 0, false, 1), SeamSide::kBegin, {-3, 3, 0, 0.5, 0.02, 0.5}));
   const Made hidden = make(2, 0.3, true, 3);
-  const auto edge = find_edge(hidden.cloud, hidden.plate, hidden.other, hidden.line,
-                              SeamSide::kBegin, {-1, 5, 0, 0.5, 0.02, 0.5});
+  const auto edge = edge_of(hidden, SeamSide::kBegin, {-1, 5, 0, 0.5, 0.02, 0.5});
   REQUIRE(edge);
   CHECK(edge->occluded);
 }
@@ -101,8 +102,7 @@ TEST_CASE("a stripe that ends behind something before the edge is no place of it
   ++made.cloud.stripes[index].count;
   for (std::size_t k = index + 1; k < made.cloud.stripes.size(); ++k) ++made.cloud.stripes[k].first;
   for (int& i : made.plate.points) i += i > last;
-  const auto edge = find_edge(made.cloud, made.plate, made.other, made.line, SeamSide::kBegin,
-                              {-1, 5, 0, 0.5, 0.02, 0.15});
+  const auto edge = edge_of(made, SeamSide::kBegin, {-1, 5, 0, 0.5, 0.02, 0.15});
   REQUIRE(edge);
   CHECK_FALSE(edge->occluded);
   CHECK(edge->along == Approx(2).margin(0.15));
@@ -110,10 +110,8 @@ TEST_CASE("a stripe that ends behind something before the edge is no place of it
 
 TEST_CASE("there is no edge where none is expected, nor in a cloud without stripes") {
   const Made made = make(2, 0.3, false, 5);
-  CHECK_FALSE(find_edge(made.cloud, made.plate, made.other, made.line, SeamSide::kBegin,
-                        {40, 46, 0, 0.5, 0.02, 0.5}));
-  ScanCloud loose = made.cloud;
-  loose.stripes.clear();
-  CHECK_FALSE(find_edge(loose, made.plate, made.other, made.line, SeamSide::kBegin,
-                        {-1, 5, 0, 0.5, 0.02, 0.5}));
+  CHECK_FALSE(edge_of(made, SeamSide::kBegin, {40, 46, 0, 0.5, 0.02, 0.5}));
+  Made loose = made;
+  loose.cloud.stripes.clear();
+  CHECK_FALSE(edge_of(loose, SeamSide::kBegin, {-1, 5, 0, 0.5, 0.02, 0.5}));
 }

@@ -62,11 +62,10 @@ TEST_CASE("a start that is hidden lies where both plates are seen to begin beyon
   // A box before the seam from its begin on, over which both plates are seen.
   const Bench bench =
       bench_of({box_at({0, -8, 10}, {120, 0, 50}), box_at({-1, 2, 10}, {30, 14, 22})});
-  const CourseSearch search{3.6, 0.6, 20};
-  const Course course = find_course(bench.cloud, bench.plates, bench.line, search);
+  const Course course = find_course(bench.cloud, bench.plates, bench.line, {3.6, 0.6, 20});
   REQUIRE(course.begin > 20);
-  const Stations stations = stations_along(bench.cloud, bench.plates, bench.line, search);
-  const SeamEnd start = find_end(bench.cloud, bench.plates, bench.line, course, stations,
+  const auto stripes = plate_stripes(bench.cloud, bench.plates, bench.line, 0.6);
+  const SeamEnd start = find_end(bench.cloud, bench.plates, bench.line, course, stripes,
                                  SeamSide::kBegin, {0.6, 0.02, 0});
   CHECK(start.by_edges);
   CHECK(start.along == Approx(0).margin(0.3));

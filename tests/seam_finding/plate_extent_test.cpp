@@ -45,7 +45,8 @@ const EndSearch kSearch{0.5, 0.0, 0};
 
 PlateExtent extent_of(const ScanCloud& cloud) {
   const auto plates = plates_of(cloud);
-  return plate_extent(cloud, plates[0], plates[1], kSeam, SeamSide::kBegin, 0, kSearch);
+  return plate_extent(cloud, plate_stripes(cloud, plates[0], plates[1], kSeam, kSearch.tolerance),
+                      SeamSide::kBegin, 0, kSearch);
 }
 
 }  // namespace
