@@ -58,6 +58,8 @@ PlaneAccuracy plane_accuracy(const ScanCloud& cloud, const JointPlate& plate,
 
   Spread off, r;
   std::map<int, Sums> stripes;
+  Sums* sums = nullptr;  // points of a stripe follow each other
+  int last = 0;
   for (const int i : beside) {
     const Eigen::Vector3d& point = cloud.points[i];
     const double distance = plate.plane.signed_distance(point);
@@ -67,12 +69,12 @@ PlaneAccuracy plane_accuracy(const ScanCloud& cloud, const JointPlate& plate,
     r.add(away.dot(point - line.point));
     const int stripe =
         cloud.organised() ? cloud.origins[i].stripe : static_cast<int>(std::floor(t / spacing_mm));
-    Sums& sums = stripes[stripe];
-    sums.n += 1, sums.t += t, sums.off += distance;
+    if (sums == nullptr || stripe != last) sums = &stripes[stripe], last = stripe;
+    sums->n += 1, sums->t += t, sums->off += distance;
   }
   Spread means, places;
-  for (const auto& [stripe, sums] : stripes)
-    means.add(sums.off / sums.n), places.add(sums.t / sums.n);
+  for (const auto& [stripe, seen] : stripes)
+    means.add(seen.off / seen.n), places.add(seen.t / seen.n);
   if (means.n < kLeastStripes || !(places.variance() > 0) || !(r.variance() > 0)) return accuracy;
   const double per_stripe = means.variance() / (means.n - 2);
   const double per_point = off.squares / off.n / off.n / static_cast<double>(every);

@@ -50,9 +50,10 @@ std::vector<int> with_pieces_of_the_plane(const ScanCloud& cloud, const std::vec
         2 * search.tolerance)
       continue;
     if (!touches(cloud, faces[k].points, line, contact_of(faces[k], search))) continue;
+    const auto own = static_cast<std::ptrdiff_t>(points.size());
     points.insert(points.end(), faces[k].points.begin(), faces[k].points.end());
+    std::inplace_merge(points.begin(), points.begin() + own, points.end());
   }
-  std::sort(points.begin(), points.end());
   return without_scraps(cloud, points);
 }
 

@@ -2,9 +2,11 @@
 
 #include <Eigen/LU>
 #include <algorithm>
+#include <bit>
+#include <bitset>
 #include <cmath>
+#include <cstdint>
 #include <cstring>
-#include <utility>
 
 namespace arcstart {
 namespace {
@@ -166,9 +168,11 @@ struct Strip {
 // The points' places in order of their distance from the line, as far as strips of equal numbers
 // need it.
 std::vector<int> order_by_strips(const Heights& points) {
-  std::vector<std::pair<float, int>> order(points.size());
+  // A number that rises with the distance, and of equals with the place: its bits before the
+  // place's.
+  std::vector<std::uint64_t> order(points.size());
   for (std::size_t i = 0; i < order.size(); ++i)
-    order[i] = {points.distance(i), static_cast<int>(i)};
+    order[i] = std::uint64_t{std::bit_cast<std::uint32_t>(points.distance(i))} << 32 | i;
   const auto border = [&](std::size_t strip) {
     return order.begin() + static_cast<std::ptrdiff_t>(order.size() * strip / kStrips);
   };
@@ -178,7 +182,7 @@ std::vector<int> order_by_strips(const Heights& points) {
         std::nth_element(border(k), border(k + width / 2), border(k + width));
   std::vector<int> places;
   places.reserve(order.size());
-  for (const auto& [distance, place] : order) places.push_back(place);
+  for (const std::uint64_t one : order) places.push_back(static_cast<int>(one & 0xffffffff));
   return places;
 }
 
@@ -206,27 +210,28 @@ std::vector<int> in_line(const Heights& points, const Heights::Model& model, dou
       noise *
       std::max(kStripNoise, kStripDeviations * std::sqrt(static_cast<double>(kStrips) /
                                                          static_cast<double>(points.size())));
-  std::vector<std::size_t> most;
+  std::bitset<kStrips> most;
   double best_off = 0;
   for (std::size_t a = 0; a < kStrips; ++a)
     for (std::size_t b = a + kStrips / 4; b < kStrips; ++b) {
       const double slope = (strips[b].height - strips[a].height) /
                            std::max(1e-6, strips[b].distance - strips[a].distance);
-      std::vector<std::size_t> on_it;
+      std::bitset<kStrips> on_it;
       double off = 0;
       for (std::size_t k = 0; k < kStrips; ++k) {
         const double residual = std::abs(strips[k].height - strips[a].height -
                                          slope * (strips[k].distance - strips[a].distance));
-        if (residual <= agree) on_it.push_back(k), off += residual;
+        if (residual <= agree) on_it.set(k), off += residual;
       }
-      if (on_it.size() > most.size() || (on_it.size() == most.size() && off < best_off))
+      if (on_it.count() > most.count() || (on_it.count() == most.count() && off < best_off))
         most = on_it, best_off = off;
     }
-  if (2 * most.size() < kStrips) return order;
+  if (2 * most.count() < kStrips) return order;
   std::vector<int> kept;
-  for (const std::size_t k : most)
-    kept.insert(kept.end(), order.begin() + static_cast<std::ptrdiff_t>(strips[k].first),
-                order.begin() + static_cast<std::ptrdiff_t>(strips[k].last));
+  for (std::size_t k = 0; k < kStrips; ++k)
+    if (most[k])
+      kept.insert(kept.end(), order.begin() + static_cast<std::ptrdiff_t>(strips[k].first),
+                  order.begin() + static_cast<std::ptrdiff_t>(strips[k].last));
   return kept;
 }
 

@@ -19,7 +19,17 @@ struct Seen {
   double along = 0;
   int count[2] = {0, 0};
   int bead = 0;
+
+  double place() const { return along / std::max(1, count[0] + count[1]); }
 };
+
+// Whether a point is metal that stands before both plates at the seam.
+bool on_bead(const Eigen::Vector3d& point, const std::array<JointPlate, 2>& plates,
+             const Line& line) {
+  return plates[0].plane.signed_distance(point) >= kTackHeight &&
+         plates[1].plane.signed_distance(point) >= kTackHeight &&
+         line.distance(point) <= kTackReach;
+}
 
 }  // namespace
 
@@ -44,21 +54,21 @@ std::vector<SurveyPlace> survey_seam(const ScanCloud& cloud,
       seen.along += along;
       ++seen.count[j];
     }
-  for (int i = 0; i < cloud.size(); ++i) {
-    const ScanStripe* stripe =
-        cloud.organised() ? &cloud.stripes[cloud.origins[i].stripe] : nullptr;
-    if (stripe && i == stripe->first && !by_stripe.contains(cloud.origins[i].stripe)) {
-      i += stripe->count - 1;
-      continue;
-    }
-    const Eigen::Vector3d& point = cloud.points[i];
-    if (plates[0].plane.signed_distance(point) < kTackHeight ||
-        plates[1].plane.signed_distance(point) < kTackHeight || line.distance(point) > kTackReach)
-      continue;
-    const double along = line.along(point);
-    if (along < begin || along > end) continue;
+  std::erase_if(by_stripe, [&](const auto& one) {
+    return one.second.place() < begin || one.second.place() > end;
+  });
+  const auto count_bead = [&](int i) {
+    if (!on_bead(cloud.points[i], plates, line)) return;
+    const double along = line.along(cloud.points[i]);
+    if (along < begin || along > end) return;
     const auto found = by_stripe.find(key(i, along));
     if (found != by_stripe.end()) ++found->second.bead;
+  };
+  if (cloud.organised()) {
+    for (const auto& [k, seen] : by_stripe)
+      for (int i = 0; i < cloud.stripes[k].count; ++i) count_bead(cloud.stripes[k].first + i);
+  } else {
+    for (int i = 0; i < cloud.size(); ++i) count_bead(i);
   }
 
   // A point in front of the planes by two heights, seen along the seam.
@@ -69,8 +79,7 @@ std::vector<SurveyPlace> survey_seam(const ScanCloud& cloud,
   std::vector<SurveyPlace> places;
   for (const auto& [stripe, seen] : by_stripe) {
     SurveyPlace place;
-    place.along = seen.along / std::max(1, seen.count[0] + seen.count[1]);
-    if (place.along < begin || place.along > end) continue;
+    place.along = seen.place();
     place.position = line.at(place.along);
     place.tack = seen.bead >= 2;
     if (seen.count[0] >= kLeastPoints && seen.count[1] >= kLeastPoints) {
