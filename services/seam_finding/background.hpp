@@ -3,7 +3,6 @@
 #pragma once
 
 #include <Eigen/Core>
-#include <array>
 #include <memory>
 #include <span>
 #include <vector>
@@ -37,6 +36,7 @@ class SurfaceBackground : public Background {
   // The cloud must outlive it. distance: from the surface, mm; raised to 3.5 times the background's
   // own noise.
   SurfaceBackground(const ScanCloud& cloud, double distance_mm);
+  SurfaceBackground(const SurfaceBackground&) = delete;  // its parts refer to each other
   bool contains(const Eigen::Vector3d& point) const override;
   void classify(std::span<const Eigen::Vector3d> points, std::vector<char>& inside) const override;
 
@@ -47,26 +47,23 @@ class SurfaceBackground : public Background {
     bool is_plane = false;
     Eigen::Vector3d low, high;  // of the cell's points
   };
-  // The surfaces near a cell: their centroids from its lowest corner, side by side. Where all are
-  // planes, in the cell none is farther from the common one than `apart`.
+  // Of a cell of space. Where all surfaces in and around it are planes, in the cell none is farther
+  // from the common one than `apart`.
   struct Surroundings {
-    NeighbourGrid::Cell middle;
-    Eigen::Vector3d corner;
-    int count;
-    std::array<int, 28> cells;
-    std::array<float, 28> x, y, z;
+    std::span<const int> cells;  // in and around it, that have a surface
     Plane common;
-    double apart;  // mm; infinite where not all are planes
+    double apart = 0;  // mm; infinite where not all are planes
   };
-  void look_around(const NeighbourGrid::Cell& middle, Surroundings& around) const;
-  double apart_in_cell(Surroundings& around) const;  // sets the common plane
+  Surroundings look_around(const NeighbourGrid::Cell& middle, std::span<const int> cells) const;
   bool contains(const Eigen::Vector3d& point, const Surroundings& around) const;
-  bool nearest_contains(const Eigen::Vector3d& point, const Surroundings& around) const;
+  bool nearest_contains(const Eigen::Vector3d& point, std::span<const int> cells) const;
 
   Sampling sampling_;
   double distance_;
   NeighbourGrid grid_;
-  std::vector<Surface> surfaces_;  // one a cell of the grid
+  NeighbourGrid::Adjacency adjacency_;
+  std::vector<Surface> surfaces_;           // one a cell of the grid
+  std::vector<Surroundings> surroundings_;  // of each
 };
 
 // The paper's rule (5): the K-th nearest point of the background is nearer than the distance. By

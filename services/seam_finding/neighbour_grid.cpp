@@ -176,20 +176,22 @@ void NeighbourGrid::nearest_distances(int point, int k, std::vector<double>& dis
 
 void NeighbourGrid::nearest_distances(int point, int k, std::span<const int> around,
                                       std::vector<double>& distances) const {
-  distances.clear();
-  const auto most = static_cast<std::size_t>(k);
+  distances.assign(static_cast<std::size_t>(k), INFINITY);  // squared, the nearest so far, rising
   const Eigen::Vector3d& centre = points_[point];
   for (const int cell : around) {
     const auto inside = points_in(cell);
     const std::size_t step = 1 + inside.size() / kCrowd;
-    for (std::size_t i = 0; i < inside.size(); i += step)
-      if (inside[i] != point) distances.push_back((points_[inside[i]] - centre).squaredNorm());
+    for (std::size_t i = 0; i < inside.size(); i += step) {
+      if (inside[i] == point) continue;
+      const double squared = (points_[inside[i]] - centre).squaredNorm();
+      if (!(squared < distances.back())) continue;
+      std::size_t place = distances.size() - 1;
+      for (; place > 0 && distances[place - 1] > squared; --place)
+        distances[place] = distances[place - 1];
+      distances[place] = squared;
+    }
   }
-  if (distances.size() > most) {
-    std::nth_element(distances.begin(), distances.begin() + k, distances.end());
-    distances.resize(most);
-  }
-  std::sort(distances.begin(), distances.end());
+  while (!distances.empty() && distances.back() == INFINITY) distances.pop_back();
   for (double& distance : distances) distance = std::sqrt(distance);
 }
 

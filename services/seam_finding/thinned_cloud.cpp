@@ -20,9 +20,9 @@ void thin(const ScanCloud& scan, ThinnedCloud& thinned) {
   for (std::size_t k = few.stripes.size(); k < scan.stripes.size(); ++k) {
     const ScanStripe& stripe = scan.stripes[k];
     const int end = stripe.first + stripe.count;
-    for (int i = stripe.first; i < end; ++i) {
-      const bool first = i == stripe.first || !same_segment(scan, i - 1, i);
-      const bool last = i + 1 == end || !same_segment(scan, i, i + 1);
+    bool first = true, last = false;  // of a segment
+    for (int i = stripe.first; i < end; ++i, first = last) {
+      last = i + 1 == end || !same_segment(scan, i, i + 1);
       if (!first && !last && !scan.origins[i].segment_end &&
           (scan.points[i] - few.points.back()).squaredNorm() < kStep * kStep)
         continue;
