@@ -96,7 +96,9 @@ SeamResult find_seam(const ScanCloud& scan, const Background& background,
   divide(scan, background, division);
   ThinnedCloud thinned;
   thin(scan, thinned);
-  return find_seam(scan, division, thinned, settings, seed);
+  SeamResult result = find_seam(scan, division, thinned, settings, seed);
+  result.background = std::move(division.background);
+  return result;
 }
 
 SeamResult find_seam(const ScanCloud& scan, const Division& division, const ThinnedCloud& fewer,
@@ -130,7 +132,6 @@ SeamResult find_seam(const ScanCloud& scan, const Division& division, const Thin
     choose_seam(result, scan, thinned, searched.left, std::move(faces), scales, settings);
   else if (result.reason.empty())
     refuse(result, "no workpiece: what is left only continues the background");
-  result.background = division.background;
   return result;
 }
 

@@ -61,7 +61,7 @@ void divide(const ScanCloud& scan, const Background& background, Division& divis
 // when in doubt. The result depends on nothing but the arguments; seed: the scan's id.
 SeamResult find_seam(const ScanCloud& scan, const Background& background,
                      const SeamFindingSettings& settings, std::uint64_t seed);
-// The same of a scan that is divided and thinned.
+// The same of a scan that is divided and thinned; leaves the result's background to the division.
 SeamResult find_seam(const ScanCloud& scan, const Division& division, const ThinnedCloud& thinned,
                      const SeamFindingSettings& settings, std::uint64_t seed);
 

@@ -43,10 +43,18 @@ PlateStripes plate_stripes(const ScanCloud& cloud, const JointPlate& plate, cons
                        std::vector<std::vector<int>>(cloud.stripes.size())};
   if (!cloud.organised()) return stripes;
   const auto reach = [&](const Eigen::Vector3d& p) { return stripes.away.dot(p - line.point); };
-  for (const int i : plate.points)
-    if (reach(cloud.points[i]) > tolerance &&
-        std::abs(plate.plane.signed_distance(cloud.points[i])) <= tolerance)
-      stripes.runs[cloud.origins[i].stripe].push_back(i);
+  for (auto point = plate.points.begin(); point != plate.points.end();) {
+    const int k = cloud.origins[*point].stripe,
+              end = cloud.stripes[k].first + cloud.stripes[k].count;
+    std::vector<int>& run = stripes.runs[k];
+    const auto next = std::lower_bound(point, plate.points.end(), end);
+    run.reserve(static_cast<std::size_t>(next - point));
+    std::copy_if(point, next, std::back_inserter(run), [&](int i) {
+      return reach(cloud.points[i]) > tolerance &&
+             std::abs(plate.plane.signed_distance(cloud.points[i])) <= tolerance;
+    });
+    point = next;
+  }
 
   for (std::size_t k = 0; k < stripes.runs.size(); ++k) {
     std::vector<int>& run = stripes.runs[k];

@@ -176,6 +176,7 @@ seam_t answer_workpiece(const CollectedScan& scan, const PreparedScan& prepared,
   if (scan.state.end_reason == "camera lost") seam.remark += "the camera was lost in the scan; ";
   fill_in(seam, find_seam(cloud, prepared.division, prepared.thinned, settings,
                           static_cast<std::uint64_t>(scan.state.scan_id)));
+  seam.background_points = static_cast<int>(prepared.division.background.size());
   fill_in_systematic(seam, scan, calibration);
   return seam;
 }

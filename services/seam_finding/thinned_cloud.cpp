@@ -22,7 +22,7 @@ void thin(const ScanCloud& scan, ThinnedCloud& thinned) {
     const int end = stripe.first + stripe.count;
     bool first = true, last = false;  // of a segment
     for (int i = stripe.first; i < end; ++i, first = last) {
-      last = i + 1 == end || !same_segment(scan, i, i + 1);
+      last = i + 1 == end || scan.origins[i].segment != scan.origins[i + 1].segment;
       if (!first && !last && !scan.origins[i].segment_end &&
           (scan.points[i] - few.points.back()).squaredNorm() < kStep * kStep)
         continue;
