@@ -86,6 +86,7 @@ void divide(const ScanCloud& scan, const Background& background, Division& divis
   std::vector<char> inside;
   inside.reserve(rest.size());
   background.classify(rest, inside);
+  if (first == 0) division.background.reserve(rest.size()), division.left.reserve(rest.size());
   for (std::size_t i = 0; i < inside.size(); ++i)
     (inside[i] ? division.background : division.left).push_back(first + static_cast<int>(i));
 }

@@ -22,13 +22,16 @@ constexpr double kOverhang = 3;  // beyond the seam's ends; mm
 
 std::vector<int> beside(const ScanCloud& cloud, const Joint& joint, int plate, const Refit& refit) {
   const double bend = std::max(kBendWidth, 2 * refit.tolerance);
+  const double from = joint.course.begin - kOverhang, to = joint.course.end + kOverhang;
+  const Plane& other = joint.plates[1 - plate].plane;
   std::vector<int> points;
+  points.reserve(joint.plates[plate].points.size());
   for (const int i : joint.plates[plate].points) {
     const Eigen::Vector3d& point = cloud.points[i];
     const double t = joint.line.along(point);
-    if (cloud.origins[i].segment_end || joint.line.distance(point) > refit.distance ||
-        t < joint.course.begin - kOverhang || t > joint.course.end + kOverhang ||
-        std::abs(joint.plates[1 - plate].plane.signed_distance(point)) < bend)
+    if (cloud.origins[i].segment_end || t < from || t > to ||
+        std::abs(other.signed_distance(point)) < bend ||
+        (point - joint.line.at(t)).squaredNorm() > refit.distance * refit.distance)
       continue;
     points.push_back(i);
   }
@@ -47,6 +50,7 @@ double outlier_spacing(const ScanCloud& cloud, const std::vector<int>& points, d
 
 // Both rising.
 std::vector<int> difference(const std::vector<int>& points, const std::vector<int>& without) {
+  if (without.empty()) return points;
   std::vector<int> left;
   left.reserve(points.size());
   std::set_difference(points.begin(), points.end(), without.begin(), without.end(),
@@ -59,6 +63,7 @@ std::vector<int> difference(const std::vector<int>& points, const std::vector<in
 std::vector<int> grown_along_stripes(const ScanCloud& cloud, const JointPlate& plate,
                                      const JointPlate& other, double tolerance) {
   std::vector<int> grown;
+  grown.reserve(plate.points.size());
   const auto goes_on = [&](int i, int from) {
     return i >= 0 && i < cloud.size() && cloud.origins[i].stripe == cloud.origins[from].stripe &&
            cloud.origins[i].segment == cloud.origins[from].segment &&

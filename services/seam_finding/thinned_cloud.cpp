@@ -20,13 +20,15 @@ void thin(const ScanCloud& scan, ThinnedCloud& thinned) {
   for (std::size_t k = few.stripes.size(); k < scan.stripes.size(); ++k) {
     const ScanStripe& stripe = scan.stripes[k];
     const int end = stripe.first + stripe.count;
-    bool first = true, last = false;  // of a segment
+    bool first = true, last = false;        // of a segment
+    const Eigen::Vector3d* kept = nullptr;  // the last one of it
     for (int i = stripe.first; i < end; ++i, first = last) {
       last = i + 1 == end || scan.origins[i].segment != scan.origins[i + 1].segment;
       if (!first && !last && !scan.origins[i].segment_end &&
-          (scan.points[i] - few.points.back()).squaredNorm() < kStep * kStep)
+          (scan.points[i] - *kept).squaredNorm() < kStep * kStep)
         continue;
-      few.points.push_back(scan.points[i]);
+      kept = &scan.points[i];
+      few.points.push_back(*kept);
       few.origins.push_back(scan.origins[i]);
       thinned.places.push_back(i);
     }
