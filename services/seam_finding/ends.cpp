@@ -168,7 +168,7 @@ std::optional<double> both_reach(const ScanCloud& cloud, const std::array<JointP
   const double outward = side == SeamSide::kEnd ? 1 : -1;
   double reach = std::numeric_limits<double>::infinity();
   for (int j = 0; j < 2; ++j)
-    reach = std::min(reach, plate_extent(cloud, stripes[j], side, end, search).on);
+    reach = std::min(reach, seen_on_plate(cloud, stripes[j], side, search));
   if (!(reach > outward * end + width)) return std::nullopt;
   return outward * reach;
 }
@@ -211,6 +211,9 @@ SeamEnd find_end(const ScanCloud& cloud, const std::array<JointPlate, 2>& plates
   for (int j = 0; j < 2; ++j) {
     if (!edges[j] && brackets[j].runs_on) continue;
     PlateExtent& extent = extents[j];
+    // Of several stripes' edge no more is asked than whether the plate goes on behind it.
+    extent.on = seen_on_plate(cloud, stripes[j], side, search);
+    if (edges[j] && edges[j]->stripes > 1 && possible(*edges[j], extent, outward)) continue;
     extent =
         plate_extent(cloud, stripes[j], side, end.along, search, crossings_of(cloud, stations, j));
     if (edges[j] && !possible(*edges[j], extent, outward)) edges[j].reset();

@@ -38,7 +38,21 @@ class MostOfRuns {
   double value_ = 0, of_run_ = 0, most_ = -std::numeric_limits<double>::infinity();
 };
 
+double usable_reach(const PlateStripes& stripes) { return std::min(kFarthest, stripes.reach); }
+
 }  // namespace
+
+double seen_on_plate(const ScanCloud& cloud, const PlateStripes& stripes, SeamSide side,
+                     const EndSearch& search) {
+  const double outward = side == SeamSide::kEnd ? 1 : -1;
+  const double slack = kBeam * search.noise, reach = usable_reach(stripes);
+  MostOfRuns on(cloud);
+  for (const auto& run : stripes.runs)
+    for (const int i : run)
+      if (const double r = stripes.away.dot(cloud.points[i] - stripes.line.point); r <= reach)
+        on.add(i, outward * stripes.line.along(cloud.points[i]) - kSquareCut * r - slack);
+  return on.most();
+}
 
 PlateExtent plate_extent(const ScanCloud& cloud, const PlateStripes& stripes, SeamSide side,
                          double near, const EndSearch& search, const StripeCrossings& crossings) {
@@ -47,14 +61,8 @@ PlateExtent plate_extent(const ScanCloud& cloud, const PlateStripes& stripes, Se
   const double outward = side == SeamSide::kEnd ? 1 : -1;
   const Line& line = stripes.line;
   const Eigen::Vector3d& away = stripes.away;
-  const double slack = kBeam * search.noise;
-  const double reach = std::min(kFarthest, stripes.reach), far = reach - kFarEdge;
-  MostOfRuns on(cloud);
-  for (const auto& run : stripes.runs)
-    for (const int i : run)
-      if (const double r = away.dot(cloud.points[i] - line.point); r <= reach)
-        on.add(i, outward * line.along(cloud.points[i]) - kSquareCut * r - slack);
-  extent.on = on.most();
+  const double slack = kBeam * search.noise, far = usable_reach(stripes) - kFarEdge;
+  extent.on = seen_on_plate(cloud, stripes, side, search);
 
   MostOfRuns past(cloud), beside(cloud);
   for (std::size_t k = 0; k < cloud.stripes.size(); ++k) {

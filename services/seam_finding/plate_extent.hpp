@@ -32,5 +32,8 @@ struct StripeCrossings {
 PlateExtent plate_extent(const ScanCloud& cloud, const PlateStripes& stripes, SeamSide side,
                          double near, const EndSearch& search,
                          const StripeCrossings& crossings = {});
+// The first of the two alone, at much less cost.
+double seen_on_plate(const ScanCloud& cloud, const PlateStripes& stripes, SeamSide side,
+                     const EndSearch& search);
 
 }  // namespace arcstart
