@@ -24,8 +24,8 @@ struct EndSearch {
 // The seam begins where both plates have begun: at the later of their edges; where the two agree
 // within their deviations, at their mean by variance. A plate whose edge no stripe crosses begins
 // somewhere between the last stripe that does not show it at the seam and the first that does.
-// stripes: of the plates, in the same tolerance.
-SeamEnd find_end(const ScanCloud& cloud, const std::array<JointPlate, 2>& plates, const Line& line,
+// stripes: of the plates, in the same tolerance; along their line all places are counted.
+SeamEnd find_end(const ScanCloud& cloud, const std::array<JointPlate, 2>& plates,
                  const Course& course, const std::array<PlateStripes, 2>& stripes, SeamSide side,
                  const EndSearch& search);
 

@@ -55,7 +55,7 @@ std::array<SeamEnd, 2> ends_of(const ScanCloud& scan, const Joint& joint, const 
   const auto stripes = plate_stripes(scan, joint.plates, joint.line, scales.tolerance);
   for (const SeamSide side : {SeamSide::kBegin, SeamSide::kEnd})
     ends[side == SeamSide::kEnd] =
-        find_end(scan, joint.plates, joint.line, joint.course, stripes, side, search);
+        find_end(scan, joint.plates, joint.course, stripes, side, search);
   return ends;
 }
 

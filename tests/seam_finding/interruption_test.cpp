@@ -65,8 +65,8 @@ TEST_CASE("a start that is hidden lies where both plates are seen to begin beyon
   const Course course = find_course(bench.cloud, bench.plates, bench.line, {3.6, 0.6, 20});
   REQUIRE(course.begin > 20);
   const auto stripes = plate_stripes(bench.cloud, bench.plates, bench.line, 0.6);
-  const SeamEnd start = find_end(bench.cloud, bench.plates, bench.line, course, stripes,
-                                 SeamSide::kBegin, {0.6, 0.02, 0});
+  const SeamEnd start =
+      find_end(bench.cloud, bench.plates, course, stripes, SeamSide::kBegin, {0.6, 0.02, 0});
   CHECK(start.by_edges);
   CHECK(start.along == Approx(0).margin(0.3));
   CHECK(start.along * start.along <= 9 * start.variance);
