@@ -236,7 +236,11 @@ std::optional<PlateEdge> find_edge(const ScanCloud& cloud, const PlateStripes& s
     fit = fit_edge(on_edge, noise);
     edge.along = fit.at_seam;
     double pixel = 0;
-    for (const Place& place : on_edge) pixel += place.pixel / static_cast<double>(on_edge.size());
+    edge.away = 0;
+    for (const Place& place : on_edge) {
+      pixel += place.pixel / static_cast<double>(on_edge.size());
+      edge.away += place.away / static_cast<double>(on_edge.size());
+    }
     edge.variance = fit.variance + kFloor * kFloor + std::pow(kShorteningDeviation * pixel, 2);
     edge.stripes = static_cast<int>(on_edge.size());
     const auto occluded =

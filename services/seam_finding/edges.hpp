@@ -20,6 +20,7 @@ struct EdgeSearch {
 struct PlateEdge {
   double along = 0;       // where it crosses the seam; mm
   double variance = 0;    // mm2
+  double away = 0;        // from the seam, of the mean of the places that tell it; mm
   int stripes = 0;        // that leave the plate over it
   bool occluded = false;  // what is seen is the outline of something before the plate
 };

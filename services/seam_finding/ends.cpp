@@ -160,10 +160,10 @@ class EndFinder {
   // the plate reaches at least so far.
   void drop_early_edge(int j) {
     if (!edges_[0] || !edges_[1] || !ends_early(*edges_[j], *edges_[1 - j], outward_)) return;
-    if (!edges_[j]->occluded &&
-        !stands_before(cloud_, plates_, line(), stations_, edges_[j]->along, kBeside))
-      return;
-    extents_[j].on = std::max(extents_[j].on, outward_ * edges_[j]->along);
+    const PlateEdge& edge = *edges_[j];
+    const Eigen::Vector3d place = line().at(edge.along) + edge.away * stripes_[j].away;
+    if (!edge.occluded && !may_hide(cloud_, plates_[j], plates_[1 - j], place)) return;
+    extents_[j].on = std::max(extents_[j].on, outward_ * edge.along);
     narrow(brackets_[j], extents_[j], unsure_of(stations_, j), 0, outward_);
     edges_[j].reset();
   }

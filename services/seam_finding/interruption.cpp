@@ -11,6 +11,7 @@ namespace {
 constexpr double kNearSeam = 3, kBeside = 20;  // in a plate, where it would be; mm
 constexpr double kReach = 60;                  // what stands before a seam lies so near it; mm
 constexpr double kStandsBefore = 3;            // mm
+constexpr double kShadow = 1.2, kAside = 3;    // of a thing: so long for its height, and mm
 constexpr int kLeastSeen = 3;                  // points
 
 // Points of a stripe before both plates.
@@ -63,6 +64,18 @@ bool stands_before(const ScanCloud& cloud, const std::array<JointPlate, 2>& plat
     return station.stripe >= 0 && std::abs(station.along - along) <= around &&
            points_before(cloud, plates, line, cloud.stripes[station.stripe]) >= kLeastSeen;
   });
+}
+
+bool may_hide(const ScanCloud& cloud, const JointPlate& plate, const JointPlate& other,
+              const Eigen::Vector3d& place) {
+  int hiding = 0;
+  for (const Eigen::Vector3d& point : cloud.points) {
+    const double height = plate.plane.signed_distance(point);
+    if (height <= kStandsBefore || other.plane.signed_distance(point) <= kStandsBefore) continue;
+    const Eigen::Vector3d beside = point - place - height * plate.plane.normal;
+    hiding += beside.norm() <= kShadow * height + kAside;
+  }
+  return hiding >= kLeastSeen;
 }
 
 }  // namespace arcstart
