@@ -31,6 +31,22 @@ double percentile(std::vector<double> values, double share) {
 
 }  // namespace
 
+void SeamRow::add_end(int seed, const seam_t& seam, const truth_t& truth) {
+  if (seam.end_visibility != seam_t::SEEN) return;
+  const Eigen::Map<const Eigen::Vector3d> end(seam.end), true_end(truth.end),
+      direction(truth.direction);
+  const Eigen::Map<const Eigen::Matrix3d> covariance(&seam.end_covariance[0][0]);
+  const double along = direction.dot(end - true_end);
+  const double deviation = std::sqrt(std::max(0.0, direction.dot(covariance * direction)));
+  end_.push_back((end - true_end).norm());
+  const bool within = std::abs(along) <= 2 * deviation;
+  end_within_ += within;
+  if (within || end_.back() <= kSilent) return;
+  ++end_silent_;
+  fmt::print("  {} seed {}: end {:.3f} mm (along {:.3f}, deviation {:.3f}, silent)\n", name_, seed,
+             end_.back(), along, deviation);
+}
+
 void SeamRow::add(int seed, const seam_t& seam, const std::optional<truth_t>& truth, double tell_mm,
                   bool start_hidden) {
   ++seeds_;
@@ -47,6 +63,7 @@ void SeamRow::add(int seed, const seam_t& seam, const std::optional<truth_t>& tr
     return;
   }
   const SeamError error = seam_error(seam, *truth);
+  if (!error.wrong) add_end(seed, seam, *truth);
   wrong_ += error.wrong;
   if (start_hidden && !error.wrong && seam.start_visibility != seam_t::SEEN) {
     ++flagged_;
@@ -75,30 +92,34 @@ void SeamRow::add(int seed, const seam_t& seam, const std::optional<truth_t>& tr
 void print_row_header() {
   fmt::print(
       "{:<16} {:>5} {:>5} {:>7} | start {:>6} {:>6} {:>6} | lateral {:>6} {:>6} | direction {:>6} "
-      "{:>6} | {:>8}\n",
+      "{:>6} | {:>8} | end {:>6} {:>6} {:>6} {:>9}\n",
       "row", "n", "wrong", "refused", "mean", "95 %", "max", "mean", "max", "mean", "max",
-      "within 2s");
+      "within 2s", "mean", "95 %", "max", "within 2s");
 }
 
 void SeamRow::finish(nlohmann::json& json) const {
   const double within =
       covered_ > 0 ? static_cast<double>(within_) / static_cast<double>(covered_) : 0;
+  const double end_within =
+      end_.empty() ? 0 : static_cast<double>(end_within_) / static_cast<double>(end_.size());
   const double start95 = percentile(start_, 0.95), start_max = percentile(start_, 1);
   const double lateral_max = percentile(lateral_, 1), direction_max = percentile(direction_, 1);
   fmt::print(
       "{:<16} {:>5} {:>5} {:>7} |       {:>6.3f} {:>6.3f} {:>6.3f} |         {:>6.4f} {:>6.4f} |   "
-      "        {:>6.4f} {:>6.4f} | {:>8.2f}\n",
+      "        {:>6.4f} {:>6.4f} | {:>9.2f} |     {:>6.3f} {:>6.3f} {:>6.3f} {:>9.2f}\n",
       name_, seeds_, wrong_, refused_, mean(start_), start95, start_max, mean(lateral_),
-      lateral_max, mean(direction_), direction_max, within);
+      lateral_max, mean(direction_), direction_max, within, mean(end_), percentile(end_, 0.95),
+      percentile(end_, 1), end_within);
   std::fflush(stdout);
   json[name_ + ".n"] = seeds_;
   json[name_ + ".wrong"] = wrong_;
   json[name_ + ".refused"] = refused_;
   json[name_ + ".flagged"] = flagged_;
   json[name_ + ".silent"] = silent_;
-  if (flagged_ > 0 || silent_ > 0)
-    fmt::print("  {}: {} hidden starts flagged, {} silent errors over 1 mm\n", name_, flagged_,
-               silent_);
+  json[name_ + ".end_silent"] = end_silent_;
+  if (flagged_ > 0 || silent_ > 0 || end_silent_ > 0)
+    fmt::print("  {}: {} hidden starts flagged, silent errors over 1 mm: {} starts, {} ends\n",
+               name_, flagged_, silent_, end_silent_);
   if (start_.empty()) return;
   json[name_ + ".start_mean_mm"] = mean(start_);
   json[name_ + ".start_p95_mm"] = start95;
@@ -108,6 +129,11 @@ void SeamRow::finish(nlohmann::json& json) const {
   json[name_ + ".direction_mean_deg"] = mean(direction_);
   json[name_ + ".direction_max_deg"] = direction_max;
   json[name_ + ".within_2sigma"] = within;
+  if (end_.empty()) return;
+  json[name_ + ".end_mean_mm"] = mean(end_);
+  json[name_ + ".end_p95_mm"] = percentile(end_, 0.95);
+  json[name_ + ".end_max_mm"] = percentile(end_, 1);
+  json[name_ + ".end_within_2sigma"] = end_within;
 }
 
 }  // namespace arcstart
