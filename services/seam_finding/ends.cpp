@@ -135,7 +135,7 @@ class EndFinder {
   void compare_with_extent(int j, double along) {
     if (!edges_[j] && brackets_[j].runs_on) return;
     PlateExtent& extent = extents_[j];
-    extent.on = seen_on_plate(cloud_, stripes_[j], side_, search_);
+    extent.on = seen_on_plate(cloud_, stripes_[j], side_, along, search_);
     if (edges_[j] && edges_[j]->stripes > 1 && possible(*edges_[j], extent, outward_)) return;
     extent = plate_extent(cloud_, stripes_[j], side_, along, search_,
                           crossings_of(cloud_, stations_, j));
@@ -194,7 +194,7 @@ class EndFinder {
     if (!stands_before(cloud_, plates_, line(), stations_, end, kBeside)) return std::nullopt;
     double reach = std::numeric_limits<double>::infinity();
     for (int j = 0; j < 2; ++j)
-      reach = std::min(reach, seen_on_plate(cloud_, stripes_[j], side_, search_));
+      reach = std::min(reach, seen_on_plate(cloud_, stripes_[j], side_, end, search_));
     if (!(reach > outward_ * end + width)) return std::nullopt;
     return outward_ * reach;
   }

@@ -11,6 +11,9 @@ constexpr double kBeam = 0.5;     // of a point's noise across its surface what 
 constexpr double kNearSeam = 3;   // where it may be the joint's other plate that is seen; mm
 constexpr double kFarEdge = 3;    // and where the plate's far edge is passed; mm
 constexpr double kFarthest = 55;  // from the seam another thing may touch the plate, as high; mm
+// A plate that is seen so far beyond the seam's end may be another thing as high; mm.
+constexpr double kGoesOn = 5;
+constexpr double kClose = 30;  // from the seam that other thing does not lie; mm
 constexpr int kLeastRun = 3;   // points in a row that chance does not put on a plate or behind it
 constexpr double kAskew = 5;   // light and sight meet the plane so far from each other, at most; mm
 constexpr double kStep = 1.5;  // along the seam between neighbours in a row; mm
@@ -40,18 +43,47 @@ class MostOfRuns {
 
 double usable_reach(const PlateStripes& stripes) { return std::min(kFarthest, stripes.reach); }
 
+// The outermost place on the plate before `limit`; mm outward.
+double outermost(const ScanCloud& cloud, const PlateStripes& stripes, double outward, double noise,
+                 double limit) {
+  const double slack = kBeam * noise, reach = usable_reach(stripes);
+  MostOfRuns on(cloud);
+  for (const auto& run : stripes.runs)
+    for (const int i : run) {
+      const double r = stripes.away.dot(cloud.points[i] - stripes.line.point);
+      const double place = outward * stripes.line.along(cloud.points[i]) - kSquareCut * r - slack;
+      if (r <= reach && place < limit) on.add(i, place);
+    }
+  return on.most();
+}
+
+// The first place beyond `near` where something is seen past the plate, close to the seam; mm
+// outward.
+double first_past(const ScanCloud& cloud, const PlateStripes& stripes, double outward, double near,
+                  const EndSearch& search) {
+  const double far = std::min(kClose, usable_reach(stripes) - kFarEdge);
+  MostOfRuns past(cloud);
+  for (int i = 0; i < cloud.size(); ++i) {
+    const auto through = seen_through(cloud, stripes.plate.plane, i, search.tolerance);
+    if (!through) continue;
+    const double r = stripes.away.dot(*through - stripes.line.point);
+    const double place =
+        outward * stripes.line.along(*through) + kSquareCut * r + kBeam * search.noise;
+    if (r > kNearSeam && r < far && place > outward * near) past.add(i, -place);
+  }
+  return -past.most();
+}
+
 }  // namespace
 
 double seen_on_plate(const ScanCloud& cloud, const PlateStripes& stripes, SeamSide side,
-                     const EndSearch& search) {
+                     double near, const EndSearch& search) {
   const double outward = side == SeamSide::kEnd ? 1 : -1;
-  const double slack = kBeam * search.noise, reach = usable_reach(stripes);
-  MostOfRuns on(cloud);
-  for (const auto& run : stripes.runs)
-    for (const int i : run)
-      if (const double r = stripes.away.dot(cloud.points[i] - stripes.line.point); r <= reach)
-        on.add(i, outward * stripes.line.along(cloud.points[i]) - kSquareCut * r - slack);
-  return on.most();
+  const double most =
+      outermost(cloud, stripes, outward, search.noise, std::numeric_limits<double>::infinity());
+  if (most < outward * near + kGoesOn) return most;
+  const double past = first_past(cloud, stripes, outward, near, search);
+  return past > most ? most : outermost(cloud, stripes, outward, search.noise, past);
 }
 
 PlateExtent plate_extent(const ScanCloud& cloud, const PlateStripes& stripes, SeamSide side,
@@ -62,7 +94,7 @@ PlateExtent plate_extent(const ScanCloud& cloud, const PlateStripes& stripes, Se
   const Line& line = stripes.line;
   const Eigen::Vector3d& away = stripes.away;
   const double slack = kBeam * search.noise, far = usable_reach(stripes) - kFarEdge;
-  extent.on = seen_on_plate(cloud, stripes, side, search);
+  extent.on = seen_on_plate(cloud, stripes, side, near, search);
 
   MostOfRuns past(cloud), beside(cloud);
   for (std::size_t k = 0; k < cloud.stripes.size(); ++k) {
