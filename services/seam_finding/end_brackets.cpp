@@ -46,10 +46,12 @@ void narrow(EndBracket& bracket, const PlateExtent& extent, double unsure, doubl
   double outer = outward * bracket.outer + margin;
   if (extent.on > outer) {
     outer = extent.past;
-    bracket.runs_on = !std::isfinite(outer);
+    bracket.runs_on = false;
   }
   outer = std::min(outer, extent.past);
-  if (inner < outer && std::isfinite(outer))
+  if (!std::isfinite(outer))
+    bracket.runs_on = true;
+  else if (inner < outer)
     bracket.inner = outward * inner, bracket.outer = outward * outer;
 }
 

@@ -98,6 +98,9 @@ class EndFinder {
     SeamEnd end{along, width * width / 12};
     end.visibility = EndVisibility::kSeen;
     for (int j = 0; j < 2; ++j) seek_edge(j, width);
+    // A stripe that shows nothing of a plate behind what hides the seam tells nothing of its end.
+    if (reach)
+      for (EndBracket& bracket : brackets_) bracket.outer = outward_ * std::numeric_limits<double>::infinity();
     for (int j = 0; j < 2; ++j) compare_with_extent(j, along);
     for (int j = 0; j < 2; ++j) seek_flush_edge(j);
     for (int j = 0; j < 2; ++j) drop_early_edge(j);
