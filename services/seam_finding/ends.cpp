@@ -16,6 +16,7 @@ constexpr double kFlushWithin = 0.6;           // mm
 constexpr double kSameEdge = 2.5;              // standard deviations of their difference
 constexpr double kUnseen = 2;  // a stripe that leaves a plate so near may not show it; of `near`
 constexpr double kBeyond = 3;  // stripe spacings
+constexpr double kFartherOut = 5;  // mm
 
 // Of the stripes that show the other plate, by which their crossings are known.
 StripeCrossings crossings_of(const ScanCloud& cloud, const Stations& stations, int plate) {
@@ -100,7 +101,8 @@ class EndFinder {
     for (int j = 0; j < 2; ++j) seek_edge(j, width);
     // A stripe that shows nothing of a plate behind what hides the seam tells nothing of its end.
     if (reach)
-      for (EndBracket& bracket : brackets_) bracket.outer = outward_ * std::numeric_limits<double>::infinity();
+      for (EndBracket& bracket : brackets_)
+        bracket.outer = outward_ * std::numeric_limits<double>::infinity();
     for (int j = 0; j < 2; ++j) compare_with_extent(j, along);
     for (int j = 0; j < 2; ++j) seek_flush_edge(j);
     for (int j = 0; j < 2; ++j) drop_early_edge(j);
@@ -136,7 +138,12 @@ class EndFinder {
 
   // Of several stripes' edge no more is asked than whether the plate goes on behind it.
   void compare_with_extent(int j, double along) {
-    if (!edges_[j] && brackets_[j].runs_on) return;
+    if (!edges_[j] && brackets_[j].runs_on) {
+      // So it says up to the next stripe; the other plate may end much farther out.
+      if (!edges_[1 - j] || outward_ * (edges_[1 - j]->along - brackets_[j].outer) < kFartherOut)
+        return;
+      brackets_[j] = {brackets_[j].inner, outward_ * std::numeric_limits<double>::infinity()};
+    }
     PlateExtent& extent = extents_[j];
     extent.on = seen_on_plate(cloud_, stripes_[j], side_, along, search_);
     if (edges_[j] && edges_[j]->stripes > 1 && possible(*edges_[j], extent, outward_)) return;
