@@ -2,6 +2,7 @@
 
 #include "services/seam_finding/course.hpp"
 #include "services/seam_finding/ends.hpp"
+#include "services/seam_finding/plate_extent.hpp"
 #include "tests/seam_finding/synthetic_scan.hpp"
 
 using namespace arcstart;
@@ -70,4 +71,14 @@ TEST_CASE("a start that is hidden lies where both plates are seen to begin beyon
   CHECK(start.by_edges);
   CHECK(start.along == Approx(0).margin(0.3));
   CHECK(start.along * start.along <= 9 * start.variance);
+}
+
+TEST_CASE("what lies in a plate's plane beyond a place that is seen past is no part of it") {
+  const Bench bench =
+      bench_of({box_at({0, -8, 10}, {120, 0, 50}), box_at({140, 12, 0}, {180, 40, 10})});
+  const auto stripes = plate_stripes(bench.cloud, bench.plates, bench.line, 0.6);
+  const EndSearch search{0.6, 0.02, 0};
+  CHECK(seen_on_plate(bench.cloud, stripes[0], SeamSide::kEnd, 120, search) < 120.5);
+  CHECK(seen_on_plate(bench.cloud, stripes[0], SeamSide::kEnd, 120, search) > 116);
+  CHECK(plate_extent(bench.cloud, stripes[0], SeamSide::kEnd, 120, search).past > 119.5);
 }
