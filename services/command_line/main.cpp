@@ -51,11 +51,8 @@ int main(int argc, char** argv) {
     return exit_code;
   } catch (const CLI::ParseError& error) {
     return program.exit(error) == 0 ? 0 : 2;
-  } catch (const InputError& error) {
-    complain(program, error);
-    return 2;
   } catch (const std::exception& error) {
     complain(program, error);
-    return 1;
+    return dynamic_cast<const InputError*>(&error) != nullptr ? 2 : 1;
   }
 }

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <optional>
 
 #include "services/seam_finding/end_brackets.hpp"
@@ -16,7 +17,7 @@ constexpr double kFlushWithin = 0.6;           // mm
 constexpr double kSameEdge = 2.5;              // standard deviations of their difference
 constexpr double kUnseen = 2;  // a stripe that leaves a plate so near may not show it; of `near`
 constexpr double kBeyond = 3;  // stripe spacings
-constexpr double kFartherOut = 5;  // mm
+constexpr double kFartherOut = 5;  // an edge than a stripe that tells nothing of what is there; mm
 
 // Of the stripes that show the other plate, by which their crossings are known.
 StripeCrossings crossings_of(const ScanCloud& cloud, const Stations& stations, int plate) {

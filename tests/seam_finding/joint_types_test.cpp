@@ -82,6 +82,17 @@ TEST_CASE("each joint is found as what it is, with both its ends") {
   CHECK(covered >= 2 * answered - 2);
 }
 
+TEST_CASE("a plate goes on behind a single stripe that does not show it") {
+  // In these scans a stripe near the start has no point near enough to the joint.
+  for (const auto& [joint, seed] : {std::pair("lap", 566), std::pair("v", 613)}) {
+    const Scene scene = make_scene({.joint = joint}, static_cast<std::uint64_t>(seed));
+    const SeamResult result = find(scene, "any", seed);
+    INFO(joint << ": " << result.reason);
+    REQUIRE(found(result));
+    CHECK((result.start - scene.start).norm() < 0.5);
+  }
+}
+
 TEST_CASE("thickness, gap and groove are measured") {
   const Scene lap = make_scene({.joint = "lap"}, 3);
   const SeamResult lapped = find(lap, "lap", 3);

@@ -1,0 +1,67 @@
+#include "services/seam_finding/end_brackets.hpp"
+
+#include <catch2/catch.hpp>
+#include <cmath>
+
+using namespace arcstart;
+
+namespace {
+
+SeamEnd edge_at(double along, double deviation) {
+  SeamEnd end;
+  end.along = along, end.variance = deviation * deviation;
+  return end;
+}
+
+}  // namespace
+
+TEST_CASE("a plate that may be set flush ends about the other's edge, and no farther out") {
+  // Far from both bounds: flush in 0.3 of all joints, else anywhere in 40 mm about the edge, of
+  // which 2 mm lie inside it and 2 outside: by counting, 0.035 of 0.37 lie inside, in the middle
+  // 1 mm before the edge, and all others leave the edge as the end.
+  SeamEnd end = edge_at(12, 0.05);
+  limit_by_bracket(end, {10, 14}, 1);
+  CHECK(end.along == Approx(12 - 0.035 / 0.37).margin(1e-6));
+  CHECK(end.variance > 0.05 * 0.05);
+  SeamEnd mirrored = edge_at(-12, 0.05);
+  limit_by_bracket(mirrored, {-10, -14}, -1);
+  CHECK(mirrored.along == Approx(-end.along).margin(1e-9));
+  CHECK(mirrored.variance == Approx(end.variance).margin(1e-12));
+}
+
+TEST_CASE("a stripe that shows nothing of a plate says that it is not flush with an edge there") {
+  SeamEnd end = edge_at(12.95, 0.02);
+  limit_by_bracket(end, {10, 13}, 1);
+  // Anywhere before the edge alike, but for the 0.05 mm behind it.
+  CHECK(end.along == Approx((10 + 12.95) / 2).margin(0.05));
+  CHECK(std::sqrt(end.variance) == Approx(2.95 / std::sqrt(12)).margin(0.05));
+}
+
+TEST_CASE("an edge inside what is seen of the other plate is the end") {
+  SeamEnd end = edge_at(9, 0.1);
+  limit_by_bracket(end, {10, 14}, 1);
+  CHECK(end.along == 9);
+  CHECK(end.variance == Approx(0.01));
+}
+
+TEST_CASE("what is seen on a plate and past it narrows where it ends, on either side") {
+  for (const double outward : {1.0, -1.0}) {
+    EndBracket bracket{outward * 10, outward * 14};
+    narrow(bracket, {11, 12.5}, 1, 0, outward);
+    CHECK(bracket.inner == outward * 11);
+    CHECK(bracket.outer == outward * 12.5);
+    // A stripe that shows the plate at the seam tells of it up to how early it may leave it.
+    bracket = {outward * 10, outward * 14};
+    narrow(bracket, {2, 12.5}, 1, 0, outward);
+    CHECK(bracket.inner == outward * 9);
+    // Seen beyond the stripe that did not show it, and past nowhere: it runs on.
+    bracket = {outward * 10, outward * 14};
+    narrow(bracket, {20}, 1, 0, outward);
+    CHECK(bracket.runs_on);
+    bracket = {outward * 10, outward * 14};
+    narrow(bracket, {20, 22}, 1, 0, outward);
+    CHECK_FALSE(bracket.runs_on);
+    CHECK(bracket.inner == outward * 20);
+    CHECK(bracket.outer == outward * 22);
+  }
+}
