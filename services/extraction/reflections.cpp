@@ -10,6 +10,8 @@ namespace {
 
 // Times.
 constexpr float kStronger = 1.7f;
+// What times as much of its strength a reflection loses on its way from the corner: it spreads.
+constexpr float kFades = 1.5f;
 // Share of a hanging line's strength that one which leads on has at least, to be the stripe.
 constexpr float kFaintest = 0.45f;
 // px; nearer points of a column belong to one stripe.
@@ -25,6 +27,7 @@ struct Leaving {
   bool forward;    // towards larger columns (rows where along_rows)
   float way;       // how far it leads that way; px
   float strength;  // mean curvature near the junction
+  float fade;      // that, by what it is at the strand's other end
 };
 
 Leaving leave(const std::vector<RidgePoint>& points, const Sight& sight,
@@ -34,12 +37,18 @@ Leaving leave(const std::vector<RidgePoint>& points, const Sight& sight,
   const auto from_junction = [&](int i) -> const RidgePoint& {
     return points[chain[side == 0 ? i : size - 1 - i]];
   };
-  const int begin = std::min(kCorner, size - 1), end = std::min(kNear, size);
-  double sum = 0;
-  for (int i = begin; i < end; ++i) sum += from_junction(i).curvature;
+  const auto mean_of = [&](int begin, int end) {
+    double sum = 0;
+    for (int i = begin; i < end; ++i) sum += from_junction(i).curvature;
+    return static_cast<float>(sum / (end - begin));
+  };
+  const int begin = std::min(kCorner, size - 1);
+  const float strength = mean_of(begin, std::min(kNear, size));
+  const int far_end = std::max(begin + 1, size - kCorner);
+  const float far_strength = mean_of(std::max(begin, far_end - kNear), far_end);
   const RidgePoint &near = from_junction(0), &far = from_junction(size - 1);
   const float way = sight.along_rows ? far.v - near.v : far.u - near.u;
-  return {index, way > 0, std::abs(way), static_cast<float>(sum / (end - begin))};
+  return {index, way > 0, std::abs(way), strength, strength / far_strength};
 }
 
 void mark_at_corners(const std::vector<RidgePoint>& points, const Sight& sight,
@@ -59,7 +68,8 @@ void mark_at_corners(const std::vector<RidgePoint>& points, const Sight& sight,
               stripe.reflection)
             continue;
           if (std::min(a.way, b.way) < Strand::kLeastWay) continue;
-          if (by_strength ? b.strength > kStronger * a.strength
+          const bool fades = b.strength > a.strength && a.fade > kFades * b.fade;
+          if (by_strength ? b.strength > kStronger * a.strength || fades
                           : !stripe.hangs() && b.strength > kFaintest * a.strength)
             suspect.reflection = true;
         }

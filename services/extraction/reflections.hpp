@@ -13,8 +13,8 @@ namespace arcstart {
 // reflects. Of two strands in the same columns one is marked, if it hangs, that is, leads to
 // nothing:
 // - from a corner the stripe goes on along the next surface, and its reflection as well. The stripe
-// is the one that leads on; where
-//   neither does, the stronger by far;
+// is the one that leads on; where neither does, the stronger by far, or the stronger of which the
+// other fades beside it;
 // - what runs beside a stronger one for most of its length is its reflection, also where that one
 // has a gap.
 void mark_reflections(const std::vector<RidgePoint>& points, const Sight& sight,

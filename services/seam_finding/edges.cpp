@@ -253,6 +253,11 @@ std::optional<PlateEdge> find_edge(const ScanCloud& cloud, const PlateStripes& s
     if (outliers == 0) break;
   }
   if (on_edge.empty()) return std::nullopt;
+  if (std::count_if(on_edge.begin(), on_edge.end(), clear) > 1)
+    edge.clear_to =
+        std::max_element(on_edge.begin(), on_edge.end(), [](const Place& a, const Place& b) {
+          return a.away < b.away;
+        })->away;
   return edge;
 }
 

@@ -1,6 +1,7 @@
 // The edges at which a plate begins and ends along a seam, from where the stripes leave it.
 #pragma once
 
+#include <limits>
 #include <optional>
 
 #include "services/seam_finding/plate_stripes.hpp"
@@ -18,9 +19,11 @@ struct EdgeSearch {
 };
 
 struct PlateEdge {
-  double along = 0;       // where it crosses the seam; mm
-  double variance = 0;    // mm2
-  double away = 0;        // from the seam, of the mean of the places that tell it; mm
+  double along = 0;     // where it crosses the seam; mm
+  double variance = 0;  // mm2
+  double away = 0;      // from the seam, of the mean of the places that tell it; mm
+  // And of the farthest, where at least two stripes clearly end there; infinite otherwise.
+  double clear_to = std::numeric_limits<double>::infinity();
   int stripes = 0;        // that leave the plate over it
   bool occluded = false;  // what is seen is the outline of something before the plate
 };

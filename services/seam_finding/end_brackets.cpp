@@ -66,7 +66,7 @@ void limit_by_bracket(SeamEnd& end, const EndBracket& bracket, double outward) {
   const double share = per_mm * (high - inner) / (per_mm * (outer - inner) + flush);
   const double middle = (inner + high) / 2;
   const double mean = share * middle + (1 - share) * edge;
-  const double within = (high - inner) * (high - inner) / 12;
+  const double within = (high - inner) * (high - inner) / 12 + kLight * kLight;
   end.variance = share * (within + std::pow(middle - mean, 2)) +
                  (1 - share) * (end.variance + std::pow(edge - mean, 2));
   end.along = outward * mean;
@@ -79,9 +79,9 @@ void between_brackets(SeamEnd& end, const std::array<EndBracket, 2>& brackets, d
     inner = std::min(inner, outward * bracket.inner);
     outer = std::min(outer, outward * bracket.outer);
   }
-  if (!(outer > inner)) return;
+  if (!(outer >= inner)) return;
   end.along = outward * (inner + outer) / 2;
-  end.variance = (outer - inner) * (outer - inner) / 12;
+  end.variance = (outer - inner) * (outer - inner) / 12 + kLight * kLight;
 }
 
 }  // namespace arcstart

@@ -17,6 +17,7 @@ constexpr double kFlushWithin = 0.6;           // mm
 constexpr double kSameEdge = 2.5;              // standard deviations of their difference
 constexpr double kUnseen = 2;  // a stripe that leaves a plate so near may not show it; of `near`
 constexpr double kBeyond = 3;  // stripe spacings
+constexpr double kBesideEdge = 3;  // of an edge's places, the plate's own; mm
 constexpr double kFartherOut = 5;  // an edge than a stripe that tells nothing of what is there; mm
 
 // Of the stripes that show the other plate, by which their crossings are known.
@@ -122,6 +123,9 @@ class EndFinder {
 
  private:
   const Line& line() const { return stripes_[0].line; }
+  bool hidden(int j, double along) const {
+    return may_hide(cloud_, plates_[j], plates_[1 - j], line().at(along));
+  }
 
   void seek_edge(int j, double width) {
     EdgeSearch& edge = searches_[j];
@@ -146,11 +150,22 @@ class EndFinder {
       brackets_[j] = {brackets_[j].inner, outward_ * std::numeric_limits<double>::infinity()};
     }
     PlateExtent& extent = extents_[j];
-    extent.on = seen_on_plate(cloud_, stripes_[j], side_, along, search_);
-    if (edges_[j] && edges_[j]->stripes > 1 && possible(*edges_[j], extent, outward_)) return;
-    extent = plate_extent(cloud_, stripes_[j], side_, along, search_,
-                          crossings_of(cloud_, stations_, j));
+    const StripeCrossings crossings = crossings_of(cloud_, stations_, j);
+    extent.on = seen_on_plate(cloud_, stripes_[j], side_, along, search_, crossings);
+    if (edges_[j] && edges_[j]->stripes > 1) {
+      // What lies in the plate's plane farther from the seam than they tell its edge may be another
+      // thing.
+      PlateExtent beside = extent;
+      beside.on = seen_on_plate(cloud_, stripes_[j], side_, along, search_, crossings,
+                                edges_[j]->clear_to + kBesideEdge);
+      if (possible(*edges_[j], beside, outward_)) return;
+    }
+    extent = plate_extent(cloud_, stripes_[j], side_, along, search_, crossings);
     if (edges_[j] && !possible(*edges_[j], extent, outward_)) edges_[j].reset();
+    // Nor, where something is seen past the plate, does one that shows nothing of it behind what
+    // may hide it.
+    if (!brackets_[j].runs_on && std::isfinite(extent.past) && hidden(j, along))
+      brackets_[j].outer = outward_ * std::numeric_limits<double>::infinity();
     // Where stripes cross the one plate's edge, they may leave this one unseen.
     const double slant = edges_[1 - j] ? std::max(0.0, outward_ * stations_.slant[j]) : 0;
     if (!edges_[j])
@@ -194,8 +209,12 @@ class EndFinder {
     end.by_edges = true;
     end.along = edge.along;
     end.variance = edge.variance;
-    for (int j = 0; j < 2; ++j)
-      if (!edges_[j] && !brackets_[j].runs_on) limit_by_bracket(end, brackets_[j], outward_);
+    for (int j = 0; j < 2; ++j) {
+      if (edges_[j] || brackets_[j].runs_on) continue;
+      limit_by_bracket(end, brackets_[j], outward_);
+      if (end.along != edge.along && hidden(j, end.along))
+        end.visibility = EndVisibility::kNotDetermined;
+    }
     if (edge.occluded) end.visibility = EndVisibility::kHidden;
   }
 
@@ -205,7 +224,8 @@ class EndFinder {
     if (!stands_before(cloud_, plates_, line(), stations_, end, kBeside)) return std::nullopt;
     double reach = std::numeric_limits<double>::infinity();
     for (int j = 0; j < 2; ++j)
-      reach = std::min(reach, seen_on_plate(cloud_, stripes_[j], side_, end, search_));
+      reach = std::min(reach, seen_on_plate(cloud_, stripes_[j], side_, end, search_,
+                                            crossings_of(cloud_, stations_, j)));
     if (!(reach > outward_ * end + width)) return std::nullopt;
     return outward_ * reach;
   }

@@ -137,8 +137,8 @@ SeamEnd find_flat_end(const ScanCloud& cloud, const Joint& joint,
     edge_search.tolerance = search.tolerance;
     edge_search.noise = search.noise;
     edge_search.shortening_px = search.shortening_px;
-    const PlateStripes stripes =
-        plate_stripes(cloud, joint.plates[j], joint.plates[1 - j], border, search.tolerance);
+    const PlateStripes stripes = plate_stripes(cloud, joint.plates[j], joint.plates[1 - j], border,
+                                               search.tolerance, search.noise);
     auto edge = find_edge(cloud, stripes, side, edge_search);
     if (edge) {
       edge->along = joint.line.along(border.at(edge->along));

@@ -10,7 +10,7 @@ namespace {
 
 constexpr double kNearSeam = 3, kBeside = 20;  // in a plate, where it would be; mm
 constexpr double kReach = 60;                  // what stands before a seam lies so near it; mm
-constexpr double kStandsBefore = 3;            // mm
+constexpr double kStandsBefore = 2;            // mm
 constexpr double kShadow = 1.2, kAside = 3;    // of a thing: so long for its height, and mm
 constexpr int kLeastSeen = 3;                  // points
 

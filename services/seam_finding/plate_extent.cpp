@@ -43,10 +43,11 @@ class MostOfRuns {
 
 double usable_reach(const PlateStripes& stripes) { return std::min(kFarthest, stripes.reach); }
 
-// The outermost place on the plate before `limit`; mm outward.
+// The outermost place on the plate before `limit`, no farther than `reach` from the seam; mm
+// outward.
 double outermost(const ScanCloud& cloud, const PlateStripes& stripes, double outward, double noise,
-                 double limit) {
-  const double slack = kBeam * noise, reach = usable_reach(stripes);
+                 double limit, double reach) {
+  const double slack = kBeam * noise;
   MostOfRuns on(cloud);
   for (const auto& run : stripes.runs)
     for (const int i : run) {
@@ -57,45 +58,22 @@ double outermost(const ScanCloud& cloud, const PlateStripes& stripes, double out
   return on.most();
 }
 
-// The first place beyond `near` where something is seen past the plate, close to the seam; mm
-// outward.
+// Whether a stripe shows the plate so far from the seam.
+bool on_plate_at(const ScanCloud& cloud, const PlateStripes& stripes, std::size_t stripe,
+                 double away) {
+  const auto& run = stripes.runs[stripe];
+  return std::any_of(run.begin(), run.end(), [&](int i) {
+    return std::abs(stripes.away.dot(cloud.points[i] - stripes.line.point) - away) < kAskew;
+  });
+}
+
+// The first place beyond `from` where something is seen past the plate, or light falls past it, no
+// farther than `far` from the seam, in the stripes about `near`; mm outward.
 double first_past(const ScanCloud& cloud, const PlateStripes& stripes, double outward, double near,
-                  const EndSearch& search) {
-  const double far = std::min(kClose, usable_reach(stripes) - kFarEdge);
-  MostOfRuns past(cloud);
-  for (int i = 0; i < cloud.size(); ++i) {
-    const auto through = seen_through(cloud, stripes.plate.plane, i, search.tolerance);
-    if (!through) continue;
-    const double r = stripes.away.dot(*through - stripes.line.point);
-    const double place =
-        outward * stripes.line.along(*through) + kSquareCut * r + kBeam * search.noise;
-    if (r > kNearSeam && r < far && place > outward * near) past.add(i, -place);
-  }
-  return -past.most();
-}
-
-}  // namespace
-
-double seen_on_plate(const ScanCloud& cloud, const PlateStripes& stripes, SeamSide side,
-                     double near, const EndSearch& search) {
-  const double outward = side == SeamSide::kEnd ? 1 : -1;
-  const double most =
-      outermost(cloud, stripes, outward, search.noise, std::numeric_limits<double>::infinity());
-  if (most < outward * near + kGoesOn) return most;
-  const double past = first_past(cloud, stripes, outward, near, search);
-  return past > most ? most : outermost(cloud, stripes, outward, search.noise, past);
-}
-
-PlateExtent plate_extent(const ScanCloud& cloud, const PlateStripes& stripes, SeamSide side,
-                         double near, const EndSearch& search, const StripeCrossings& crossings) {
-  PlateExtent extent;
-  if (!cloud.organised()) return extent;
-  const double outward = side == SeamSide::kEnd ? 1 : -1;
+                  double from, double far, const EndSearch& search,
+                  const StripeCrossings& crossings) {
   const Line& line = stripes.line;
-  const Eigen::Vector3d& away = stripes.away;
-  const double slack = kBeam * search.noise, far = usable_reach(stripes) - kFarEdge;
-  extent.on = seen_on_plate(cloud, stripes, side, near, search);
-
+  const double slack = kBeam * search.noise;
   MostOfRuns past(cloud), beside(cloud);
   for (std::size_t k = 0; k < cloud.stripes.size(); ++k) {
     const ScanStripe& stripe = cloud.stripes[k];
@@ -107,18 +85,45 @@ PlateExtent plate_extent(const ScanCloud& cloud, const PlateStripes& stripes, Se
     for (int i = stripe.first; i <= last; ++i) {
       const auto through = seen_through(cloud, stripes.plate.plane, i, search.tolerance);
       if (!through) continue;
-      const double r = away.dot(*through - line.point);
+      const double r = stripes.away.dot(*through - line.point);
       const double place = outward * line.along(*through) + kSquareCut * r + slack;
       if (r <= kNearSeam || r >= far) continue;
-      if (place > extent.on) past.add(i, -place);
-      if (k >= crossings.along.size() || !crossings.along[k] || !stripes.runs[k].empty()) continue;
-      const double crossing =
-          outward * (*crossings.along[k] + crossings.slant * std::max(0.0, r - kAskew)) +
-          kSquareCut * r + slack;
-      if (crossing > extent.on) beside.add(i, -crossing);
+      if (place > from) past.add(i, -place);
+      if (k >= crossings.along.size() || !crossings.along[k]) continue;
+      const double slant = outward * crossings.slant;
+      const double crossing = outward * *crossings.along[k] +
+                              slant * std::max(0.0, slant > 0 ? r + kAskew : r - kAskew) +
+                              kSquareCut * r + slack;
+      if (crossing > from && !on_plate_at(cloud, stripes, k, r)) beside.add(i, -crossing);
     }
   }
-  extent.past = -std::max(past.most(), beside.most());
+  return -std::max(past.most(), beside.most());
+}
+
+}  // namespace
+
+double seen_on_plate(const ScanCloud& cloud, const PlateStripes& stripes, SeamSide side,
+                     double near, const EndSearch& search, const StripeCrossings& crossings,
+                     double reach) {
+  const double outward = side == SeamSide::kEnd ? 1 : -1;
+  reach = std::min(reach, usable_reach(stripes));
+  const double most = outermost(cloud, stripes, outward, search.noise,
+                                std::numeric_limits<double>::infinity(), reach);
+  if (most < outward * near + kGoesOn) return most;
+  const double past = first_past(cloud, stripes, outward, near, outward * near,
+                                 std::min(kClose, reach - kFarEdge), search, crossings);
+  if (past > most) return most;
+  // Another thing lies in the plate's plane, and may do so from before the plate's end.
+  return outermost(cloud, stripes, outward, search.noise, past, std::min(kClose, reach));
+}
+
+PlateExtent plate_extent(const ScanCloud& cloud, const PlateStripes& stripes, SeamSide side,
+                         double near, const EndSearch& search, const StripeCrossings& crossings) {
+  PlateExtent extent;
+  if (!cloud.organised()) return extent;
+  extent.on = seen_on_plate(cloud, stripes, side, near, search, crossings);
+  extent.past = first_past(cloud, stripes, side == SeamSide::kEnd ? 1 : -1, near, extent.on,
+                           usable_reach(stripes) - kFarEdge, search, crossings);
   return extent;
 }
 

@@ -9,6 +9,34 @@ namespace {
 constexpr double kGap = 4;           // between points on one piece of a plate, at most; mm
 constexpr int kLeastBehind = 2;      // points that chance does not put behind a plate
 constexpr double kLeastSight = 0.1;  // sine of the angle between a line of sight and a plate
+// What lies in a plate rises from it by no more, mm for each mm, and that many deviations for its
+// noise. What is longer does lie in it; mm.
+constexpr double kRise = 0.04, kSureRise = 2.5, kLong = 15;
+
+// Leaves out short stretches of neighbours that rise from the plane all the way.
+void drop_askew(const ScanCloud& cloud, const Plane& plane, double noise, std::vector<int>& run) {
+  auto kept = run.begin();
+  for (auto begin = run.begin(), end = begin; begin != run.end(); begin = end) {
+    for (++end; end != run.end() && *end == end[-1] + 1 &&
+                cloud.origins[*end].segment == cloud.origins[*begin].segment;)
+      ++end;
+    const Eigen::Vector3d &first = cloud.points[*begin], way = cloud.points[end[-1]] - first;
+    bool askew = false;
+    if (end - begin > 2 && way.norm() < kLong) {
+      const Eigen::Vector3d direction = way.normalized();
+      double n = 0, s = 0, h = 0, ss = 0, sh = 0;
+      for (auto i = begin; i != end; ++i) {
+        const double along = direction.dot(cloud.points[*i] - first);
+        const double height = plane.signed_distance(cloud.points[*i]);
+        n += 1, s += along, h += height, ss += along * along, sh += along * height;
+      }
+      const double spread = ss - s * s / n;
+      askew = std::abs(sh - s * h / n) > kRise * spread + kSureRise * noise * std::sqrt(spread);
+    }
+    kept = askew ? kept : std::move(begin, end, kept);
+  }
+  run.erase(kept, run.end());
+}
 
 // Half of the stripes that show the plate reach so far.
 double usual_reach(const ScanCloud& cloud, const PlateStripes& stripes) {
@@ -38,7 +66,7 @@ std::optional<Eigen::Vector3d> seen_through(const ScanCloud& cloud, const Plane&
 }
 
 PlateStripes plate_stripes(const ScanCloud& cloud, const JointPlate& plate, const JointPlate& other,
-                           const Line& line, double tolerance) {
+                           const Line& line, double tolerance, double noise) {
   PlateStripes stripes{plate, other, line, away_from_seam(plate, other),
                        std::vector<std::vector<int>>(cloud.stripes.size())};
   if (!cloud.organised()) return stripes;
@@ -53,6 +81,7 @@ PlateStripes plate_stripes(const ScanCloud& cloud, const JointPlate& plate, cons
       return reach(cloud.points[i]) > tolerance &&
              std::abs(plate.plane.signed_distance(cloud.points[i])) <= tolerance;
     });
+    drop_askew(cloud, plate.plane, noise, run);
     point = next;
   }
 
@@ -85,9 +114,9 @@ PlateStripes plate_stripes(const ScanCloud& cloud, const JointPlate& plate, cons
 
 std::array<PlateStripes, 2> plate_stripes(const ScanCloud& cloud,
                                           const std::array<JointPlate, 2>& plates, const Line& line,
-                                          double tolerance) {
-  return {plate_stripes(cloud, plates[0], plates[1], line, tolerance),
-          plate_stripes(cloud, plates[1], plates[0], line, tolerance)};
+                                          double tolerance, double noise) {
+  return {plate_stripes(cloud, plates[0], plates[1], line, tolerance, noise),
+          plate_stripes(cloud, plates[1], plates[0], line, tolerance, noise)};
 }
 
 }  // namespace arcstart

@@ -23,7 +23,7 @@ std::string in_words(const SeamEnd& end, const std::string& which) {
       return fmt::format("the seam runs on where the scan {}; ",
                          which == "end" ? "ends" : "begins");
     case EndVisibility::kNotDetermined:
-      return fmt::format("the {} was not seen well, the seam reaches at least so far; ", which);
+      return fmt::format("the {} was not seen well and may lie elsewhere; ", which);
     case EndVisibility::kSeen:
       break;
   }
@@ -52,7 +52,8 @@ std::array<SeamEnd, 2> ends_of(const ScanCloud& scan, const Joint& joint, const 
       ends[side == SeamSide::kEnd] = find_flat_end(scan, joint, stations, side, search);
     return ends;
   }
-  const auto stripes = plate_stripes(scan, joint.plates, joint.line, scales.tolerance);
+  const auto stripes =
+      plate_stripes(scan, joint.plates, joint.line, scales.tolerance, scales.noise);
   for (const SeamSide side : {SeamSide::kBegin, SeamSide::kEnd})
     ends[side == SeamSide::kEnd] =
         find_end(scan, joint.plates, joint.course, stripes, side, search);

@@ -12,13 +12,18 @@ namespace {
 class Scene {
  public:
   int add(double u0, double v0, double u1, double v1, double strength) {
+    return add(u0, v0, u1, v1, strength, strength);
+  }
+  // Its strength runs from the one to the other.
+  int add(double u0, double v0, double u1, double v1, double from, double to) {
     const double length = std::hypot(u1 - u0, v1 - v0);
     for (int i = 0; i <= length; ++i) {
       const double u = u0 + (u1 - u0) * i / length, v = v0 + (v1 - v0) * i / length;
       lines_.push_back(
           {{static_cast<float>(u), static_cast<float>(v), static_cast<float>(-(v1 - v0) / length),
-            static_cast<float>((u1 - u0) / length), static_cast<float>(strength),
-            static_cast<int>(std::lround(u)), static_cast<int>(std::lround(v))},
+            static_cast<float>((u1 - u0) / length),
+            static_cast<float>(from + (to - from) * i / length), static_cast<int>(std::lround(u)),
+            static_cast<int>(std::lround(v))},
            count_});
     }
     return count_++;
@@ -100,6 +105,25 @@ TEST_CASE(
   CHECK(share[base] == 0);
   CHECK(share[upright] == 0);
   CHECK(share[ghost] == Approx(1));
+}
+
+TEST_CASE(
+    "of two lines from a corner that are nearly as strong the one that fades is the reflection") {
+  Scene scene;
+  const int base = scene.add(0, 200, 400, 100, 10);
+  const int upright = scene.add(402, 101, 500, 225, 9);
+  const int ghost = scene.add(403, 99, 560, 30, 7, 3);
+  const auto share = scene.reflected();
+  CHECK(share[base] == 0);
+  CHECK(share[upright] == 0);
+  CHECK(share[ghost] == Approx(1));
+
+  // Neither fades, and neither is much stronger: that is not for strengths to tell.
+  Scene alike;
+  alike.add(0, 200, 400, 100, 10);
+  alike.add(402, 101, 500, 225, 9);
+  alike.add(403, 99, 560, 30, 7);
+  for (const double part : alike.reflected()) CHECK(part == 0);
 }
 
 TEST_CASE("a dim surface that leads to the next is the stripe, a brighter line to nowhere is not") {

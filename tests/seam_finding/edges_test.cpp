@@ -47,9 +47,10 @@ Made make(double begin, double slant, bool something_before, unsigned seed) {
 }
 
 std::optional<PlateEdge> edge_of(const Made& made, SeamSide side, const EdgeSearch& search) {
-  return find_edge(made.cloud,
-                   plate_stripes(made.cloud, made.plate, made.other, made.line, search.tolerance),
-                   side, search);
+  return find_edge(
+      made.cloud,
+      plate_stripes(made.cloud, made.plate, made.other, made.line, search.tolerance, search.noise),
+      side, search);
 }
 
 }  // namespace

@@ -65,3 +65,14 @@ TEST_CASE("what is seen on a plate and past it narrows where it ends, on either 
     CHECK(bracket.outer == outward * 22);
   }
 }
+
+TEST_CASE("no end is known better than half the width of the light that tells it") {
+  SeamEnd between;
+  between_brackets(between, {EndBracket{10, 10}, EndBracket{10, 40, true}}, 1);
+  CHECK(between.along == 10);
+  CHECK(std::sqrt(between.variance) == Approx(0.15));
+  SeamEnd limited = edge_at(30, 0.05);
+  limit_by_bracket(limited, {10, 10.001}, 1);
+  CHECK(limited.along == Approx(10).margin(0.01));
+  CHECK(std::sqrt(limited.variance) == Approx(0.15).margin(0.01));
+}

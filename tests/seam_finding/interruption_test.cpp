@@ -65,7 +65,7 @@ TEST_CASE("a start that is hidden lies where both plates are seen to begin beyon
       bench_of({box_at({0, -8, 10}, {120, 0, 50}), box_at({-1, 2, 10}, {30, 14, 22})});
   const Course course = find_course(bench.cloud, bench.plates, bench.line, {3.6, 0.6, 20});
   REQUIRE(course.begin > 20);
-  const auto stripes = plate_stripes(bench.cloud, bench.plates, bench.line, 0.6);
+  const auto stripes = plate_stripes(bench.cloud, bench.plates, bench.line, 0.6, 0.05);
   const SeamEnd start =
       find_end(bench.cloud, bench.plates, course, stripes, SeamSide::kBegin, {0.6, 0.02, 0});
   CHECK(start.by_edges);
@@ -76,9 +76,26 @@ TEST_CASE("a start that is hidden lies where both plates are seen to begin beyon
 TEST_CASE("what lies in a plate's plane beyond a place that is seen past is no part of it") {
   const Bench bench =
       bench_of({box_at({0, -8, 10}, {120, 0, 50}), box_at({140, 12, 0}, {180, 40, 10})});
-  const auto stripes = plate_stripes(bench.cloud, bench.plates, bench.line, 0.6);
+  const auto stripes = plate_stripes(bench.cloud, bench.plates, bench.line, 0.6, 0.05);
   const EndSearch search{0.6, 0.02, 0};
   CHECK(seen_on_plate(bench.cloud, stripes[0], SeamSide::kEnd, 120, search) < 120.5);
   CHECK(seen_on_plate(bench.cloud, stripes[0], SeamSide::kEnd, 120, search) > 116);
   CHECK(plate_extent(bench.cloud, stripes[0], SeamSide::kEnd, 120, search).past > 119.5);
+}
+
+TEST_CASE("a thing as high as a plate that touches its end does not prolong it") {
+  // The upright reaches beyond the base, so that the seam ends with that.
+  for (const double from : {22.0, 28.0, 35.0, 45.0}) {
+    const Bench bench =
+        bench_of({box_at({0, -8, 10}, {150, 0, 50}), box_at({120, from, 0}, {200, 60, 10})});
+    const Course course = find_course(bench.cloud, bench.plates, bench.line, {3.6, 0.6, 20});
+    const auto stripes = plate_stripes(bench.cloud, bench.plates, bench.line, 0.6, 0.05);
+    const SeamEnd end =
+        find_end(bench.cloud, bench.plates, course, stripes, SeamSide::kEnd, {0.6, 0.02, 0});
+    INFO(from);
+    INFO(end.along);
+    INFO(std::sqrt(end.variance));
+    CHECK(std::abs(end.along - 120) <= 2 * std::sqrt(end.variance) + 0.02);
+    CHECK(std::sqrt(end.variance) < 1.1);
+  }
 }

@@ -36,7 +36,7 @@ std::array<JointPlate, 2> plates_of(const ScanCloud& cloud) {
   plates[0].plane = {Eigen::Vector3d::UnitZ(), 0};
   plates[1].plane = {Eigen::Vector3d::UnitY(), 0};
   for (int i = 0; i < cloud.size(); ++i)
-    if (cloud.points[i].z() == 0) plates[0].points.push_back(i);
+    if (std::abs(cloud.points[i].z()) < 0.5) plates[0].points.push_back(i);
   return plates;
 }
 
@@ -45,8 +45,9 @@ const EndSearch kSearch{0.5, 0.0, 0};
 
 PlateExtent extent_of(const ScanCloud& cloud) {
   const auto plates = plates_of(cloud);
-  return plate_extent(cloud, plate_stripes(cloud, plates[0], plates[1], kSeam, kSearch.tolerance),
-                      SeamSide::kBegin, 0, kSearch);
+  return plate_extent(
+      cloud, plate_stripes(cloud, plates[0], plates[1], kSeam, kSearch.tolerance, kSearch.noise),
+      SeamSide::kBegin, 0, kSearch);
 }
 
 }  // namespace
@@ -100,6 +101,36 @@ TEST_CASE("what lies as high as a plate beyond its far edge is no part of it") {
     if (cloud.points[i].y() > 53 && cloud.origins[i].stripe < 6) cloud.points[i].z() = 0;
   const PlateExtent beside = extent_of(cloud);
   CHECK(beside.past == clean.past);
+}
+
+TEST_CASE("a line that runs through a plate's plane beyond it is no part of the plate") {
+  ScanCloud cloud = scan_of(-18.5, 0, 2.5);
+  const PlateExtent clean = extent_of(cloud);
+  // Of a stripe before the plate's begin: a reflection that rises by 0.1 mm for each mm.
+  for (int i = 0; i < cloud.size(); ++i)
+    if (cloud.origins[i].stripe == 4) cloud.points[i].z() = 0.12 * (cloud.points[i].y() - 30);
+  const PlateExtent crossed = extent_of(cloud);
+  CHECK(crossed.on == clean.on);
+}
+
+TEST_CASE("light that falls past a plate bounds it, whatever else lies in its plane") {
+  // Stripes square to the seam over a plate from 0 to 50 mm away; a thing as high touches its begin
+  // from 36 mm away on, 7 mm long. The light runs on under the plane and away from the plate, so
+  // that what is seen past it is seen 8 mm from where the light falls past.
+  ScanCloud cloud = scan_of(-18.5, 0, -8);
+  StripeCrossings crossings;
+  for (int k = 0; k < 20; ++k) crossings.along.push_back(-18.5 + 4 * k);
+  for (int i = 0; i < cloud.size(); ++i)
+    if (cloud.points[i].y() > 35 && cloud.points[i].z() < 0 && cloud.points[i].x() > -15)
+      cloud.points[i] = {cloud.points[i].x() + 8, cloud.points[i].y(), 0};
+  const auto plates = plates_of(cloud);
+  const auto stripes =
+      plate_stripes(cloud, plates[0], plates[1], kSeam, kSearch.tolerance, kSearch.noise);
+  const double on = seen_on_plate(cloud, stripes, SeamSide::kBegin, 0, kSearch, crossings);
+  // The stripe at 1.5 is the first on the plate, the one at -2.5 the last that falls past it.
+  CHECK(on < 2.5);
+  CHECK(on > -2.5);
+  CHECK(seen_on_plate(cloud, stripes, SeamSide::kBegin, 0, kSearch) > 6);
 }
 
 TEST_CASE("without stripes nothing is known") {
