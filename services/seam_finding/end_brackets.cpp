@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 namespace arcstart {
 namespace {
@@ -73,13 +74,14 @@ void limit_by_bracket(SeamEnd& end, const EndBracket& bracket, double outward) {
 }
 
 void between_brackets(SeamEnd& end, const std::array<EndBracket, 2>& brackets, double outward) {
-  double inner = 1e9, outer = 1e9;
+  constexpr double kFar = std::numeric_limits<double>::infinity();
+  double inner = kFar, outer = kFar;
   for (const EndBracket& bracket : brackets) {
     if (bracket.runs_on) continue;
     inner = std::min(inner, outward * bracket.inner);
     outer = std::min(outer, outward * bracket.outer);
   }
-  if (!(outer >= inner)) return;
+  if (!std::isfinite(outer) || outer < inner) return;
   end.along = outward * (inner + outer) / 2;
   end.variance = (outer - inner) * (outer - inner) / 12 + kLight * kLight;
 }

@@ -2,6 +2,7 @@
 
 #include <catch2/catch.hpp>
 #include <cmath>
+#include <limits>
 
 using namespace arcstart;
 
@@ -75,4 +76,16 @@ TEST_CASE("no end is known better than half the width of the light that tells it
   limit_by_bracket(limited, {10, 10.001}, 1);
   CHECK(limited.along == Approx(10).margin(0.01));
   CHECK(std::sqrt(limited.variance) == Approx(0.15).margin(0.01));
+}
+
+TEST_CASE("between brackets that bound nothing an end stays where it is") {
+  const double far = std::numeric_limits<double>::infinity();
+  for (const double outward : {1.0, -1.0})
+    for (const EndBracket& bracket :
+         {EndBracket{10, 20, true}, EndBracket{outward * 10, outward * far, false}}) {
+      SeamEnd end = edge_at(12, 0.5);
+      between_brackets(end, {bracket, bracket}, outward);
+      CHECK(end.along == 12);
+      CHECK(end.variance == 0.25);
+    }
 }
