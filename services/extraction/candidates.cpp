@@ -1,6 +1,7 @@
 #include "services/extraction/candidates.hpp"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <utility>
 
@@ -29,41 +30,56 @@ float weighted_median(FrameVector<Weighted>& values) {
 
 void collect(const std::vector<RidgePoint>& points, const FrameVector<Strand>& strands,
              bool along_rows, Memory memory, Candidates& candidates) {
-  FrameVector<Candidate> sorted(memory);
+  const auto line_of = [&](const RidgePoint& p) { return along_rows ? p.row : p.column; };
   int lines = 0;
-  for (int c = 0; c < static_cast<int>(strands.size()); ++c)
-    for (const int i : strands[c].points) {
+  for (const Strand& strand : strands)
+    for (const int i : strand.points) lines = std::max(lines, line_of(points[i]) + 1);
+  struct Strong {
+    int point, strand;
+    float curvature;
+    bool operator<(const Strong& other) const {  // is the better one
+      return curvature != other.curvature ? curvature > other.curvature : point < other.point;
+    }
+  };
+  // The strongest of each line, sorted.
+  FrameVector<std::array<Strong, kMostOfLine>> strongest(lines, memory);
+  FrameVector<int> of_line(lines, 0, memory);
+  for (int s = 0; s < static_cast<int>(strands.size()); ++s)
+    for (const int i : strands[s].points) {
+      const int line = line_of(points[i]);
+      const Strong here{i, s, points[i].curvature};
+      auto& best = strongest[line];
+      int at = of_line[line];
+      if (at < kMostOfLine)
+        ++of_line[line];
+      else if (!(here < best[--at]))
+        continue;
+      for (; at > 0 && here < best[at - 1]; --at) best[at] = best[at - 1];
+      best[at] = here;
+    }
+  auto& [all, line_begin] = candidates;
+  all.clear();
+  line_begin.assign(1, 0);
+  for (int line = 0; line < lines; ++line) {
+    for (int k = 0; k < of_line[line]; ++k) {
+      const auto& [i, strand, curvature] = strongest[line][k];
       const RidgePoint& p = points[i];
       Candidate candidate{};
       candidate.point = i;
-      candidate.strand = c;
-      candidate.reflection = strands[c].reflection;
-      candidate.line = along_rows ? p.row : p.column;
+      candidate.strand = strand;
+      candidate.reflection = strands[strand].reflection;
+      candidate.line = line;
       candidate.along = along_rows ? p.v : p.u;
       candidate.across = along_rows ? p.u : p.v;
       const float normal_along = along_rows ? p.normal_v : p.normal_u;
       const float normal_across = along_rows ? p.normal_u : p.normal_v;
       candidate.slope = std::abs(normal_across) > 0.05f ? -normal_along / normal_across : 0;
       candidate.slope = std::clamp(candidate.slope, -kSteepest, kSteepest);
-      candidate.curvature = p.curvature;
-      lines = std::max(lines, candidate.line + 1);
-      sorted.push_back(candidate);
+      candidate.curvature = curvature;
+      all.push_back(candidate);
     }
-  std::sort(sorted.begin(), sorted.end(), [](const Candidate& a, const Candidate& b) {
-    if (a.line != b.line) return a.line < b.line;
-    return a.curvature != b.curvature ? a.curvature > b.curvature : a.point < b.point;
-  });
-  auto& [all, line_begin] = candidates;
-  all.clear();
-  line_begin.assign(lines + 1, 0);
-  int of_line = 0;
-  for (std::size_t i = 0; i < sorted.size(); ++i) {
-    of_line = i > 0 && sorted[i].line == sorted[i - 1].line ? of_line + 1 : 0;
-    if (of_line >= kMostOfLine) continue;
-    all.push_back(sorted[i]);
-    ++line_begin[sorted[i].line + 1];
+    line_begin.push_back(static_cast<int>(all.size()));
   }
-  for (int line = 0; line < lines; ++line) line_begin[line + 1] += line_begin[line];
 
   // A strand's first and last candidate along the image, whatever way it was followed.
   FrameVector<int> first(strands.size(), -1, memory), last(strands.size(), -1, memory);

@@ -2,8 +2,9 @@
 
 #include <algorithm>
 #include <cmath>
-#include <map>
-#include <memory_resource>
+#include <numeric>
+
+#include "services/extraction/meetings.hpp"
 
 namespace arcstart {
 namespace {
@@ -11,88 +12,64 @@ namespace {
 // px along the image between strands that follow on each other.
 constexpr float kStep = 5;
 
-// Where in its chain each point stands.
-struct Place {
-  int chain = -1, position = -1;
-};
-
-// An end of one chain lies at a point of another.
-struct Meeting {
-  int end, point;
-};
-
-// A chain's end, seen on from it: lines that leave a corner at a small angle are told apart only
-// some way from it.
-struct Outlook {
-  float u, v, du, dv, reach;
-
-  Outlook(const std::vector<RidgePoint>& points, const Chain& chain, bool last, double reach_px)
-      : reach(static_cast<float>(reach_px)) {
-    const int size = static_cast<int>(chain.size()), step = std::min(10, size - 1);
-    const RidgePoint& tip = points[last ? chain.back() : chain.front()];
-    const RidgePoint& inner = points[last ? chain[size - 1 - step] : chain[step]];
-    const float length = std::max(1e-3f, std::hypot(tip.u - inner.u, tip.v - inner.v));
-    u = tip.u;
-    v = tip.v;
-    du = (tip.u - inner.u) / length;
-    dv = (tip.v - inner.v) / length;
+// Ends of strands, 2 * strand + side, that share a junction.
+class Junctions {
+ public:
+  Junctions(std::size_t strands, Memory memory)
+      : parent_(2 * strands, memory), name_(2 * strands, -1, memory) {
+    std::iota(parent_.begin(), parent_.end(), 0);
   }
-  // From the stretch of four times the reach before the end.
-  float distance(const RidgePoint& p) const {
-    const float along = std::clamp((p.u - u) * du + (p.v - v) * dv, 0.0f, 4 * reach);
-    return std::hypot(p.u - u - along * du, p.v - v - along * dv);
+  int name_of(int end) { return name_[root_of(end)]; }  // -1 for none
+
+  // All of one junction from now on, which keeps the first one's name.
+  void join(const FrameVector<int>& ends) {
+    if (ends.empty()) return;
+    const int first = root_of(ends.front());
+    if (name_[first] < 0) name_[first] = count_++;
+    for (const int end : ends) parent_[root_of(end)] = first;
   }
-  float lowest_v() const { return std::min(v, v + 4 * reach * dv) - reach; }
-  float highest_v() const { return std::max(v, v + 4 * reach * dv) + reach; }
+
+ private:
+  int root_of(int end) {
+    while (parent_[end] != end) end = parent_[end] = parent_[parent_[end]];
+    return end;
+  }
+  FrameVector<int> parent_, name_;
+  int count_ = 0;
 };
 
-// For each end, the first point of each other chain that it runs into.
-void find_meetings(const std::vector<RidgePoint>& points, const FrameVector<Place>& places,
-                   const Chain& chain, bool last, double reach, FrameVector<Meeting>& meetings) {
-  const Outlook outlook(points, chain, last, reach);
-  const int end = last ? chain.back() : chain.front();
-  // Chain to point.
-  std::pmr::map<int, int> nearest(meetings.get_allocator().resource());
-  auto at = std::lower_bound(points.begin(), points.end(),
-                             static_cast<int>(std::floor(outlook.lowest_v())),
-                             [](const RidgePoint& p, int row) { return p.row < row; });
-  const auto from_end = [&](const RidgePoint& p) {
-    return std::hypot(p.u - outlook.u, p.v - outlook.v);
+// Ends that meet share a junction, also by way of others. first_strand: of each chain, and the end.
+void name_junctions(const FrameVector<ChainPlace>& places, const FrameVector<Meeting>& meetings,
+                    const FrameVector<int>& first_strand, int near, FrameVector<Strand>& strands) {
+  const Memory memory = strands.get_allocator().resource();
+  Junctions junctions(strands.size(), memory);
+  FrameVector<int> ends(memory);
+  const auto position = [&](int strand, int side) {
+    const Chain& points = strands[strand].points;
+    return places[side == 0 ? points.front() : points.back()].position;
   };
-  for (; at != points.end() && static_cast<float>(at->row) <= outlook.highest_v(); ++at) {
-    const auto i = static_cast<int>(at - points.begin());
-    if (places[i].chain < 0 || places[i].chain == places[end].chain ||
-        outlook.distance(*at) > outlook.reach)
-      continue;
-    const auto [entry, is_new] = nearest.try_emplace(places[i].chain, i);
-    if (!is_new && from_end(*at) < from_end(points[entry->second])) entry->second = i;
-  }
-  for (const auto& [other, point] : nearest) meetings.push_back({end, point});
-}
-
-// Ends that meet share a junction, also by way of others.
-void name_junctions(const FrameVector<Place>& places, const FrameVector<Meeting>& meetings,
-                    int near, FrameVector<Strand>& strands) {
-  int count = 0;
+  // Ends of a chain's strands that lie no farther than so many points from one of its.
+  const auto add_ends = [&](const ChainPlace& place, int reach) {
+    const auto chain_begin = strands.begin() + first_strand[place.chain],
+               chain_end = strands.begin() + first_strand[place.chain + 1];
+    const auto first = std::partition_point(chain_begin, chain_end, [&](const Strand& strand) {
+      return places[strand.points.back()].position < place.position - reach;
+    });
+    for (int s = static_cast<int>(first - strands.begin());
+         s < first_strand[place.chain + 1] && position(s, 0) <= place.position + reach; ++s)
+      for (const int side : {0, 1})
+        if (std::abs(position(s, side) - place.position) <= reach) ends.push_back(2 * s + side);
+  };
   for (const Meeting& meeting : meetings) {
-    int name = -1;
-    const auto join = [&](int& junction) {
-      if (name < 0) name = junction >= 0 ? junction : count++;
-      if (junction >= 0 && junction != name)
-        for (Strand& other : strands)
-          for (int& old : other.junction)
-            if (old == junction && &old != &junction) old = name;
-      junction = name;
-    };
-    for (Strand& strand : strands)
-      for (int side = 0; side < 2; ++side) {
-        const int tip = side == 0 ? strand.points.front() : strand.points.back();
-        const Place &at = places[tip], &met = places[meeting.point];
-        if (tip == meeting.end ||
-            (at.chain == met.chain && std::abs(at.position - met.position) <= near))
-          join(strand.junction[side]);
-      }
+    const ChainPlace &end = places[meeting.end], &met = places[meeting.point];
+    ends.clear();
+    if (end.chain < met.chain) add_ends(end, 0);
+    add_ends(met, near);
+    if (end.chain > met.chain) add_ends(end, 0);
+    junctions.join(ends);
   }
+  for (int s = 0; s < static_cast<int>(strands.size()); ++s)
+    for (const int side : {0, 1}) strands[s].junction[side] = junctions.name_of(2 * s + side);
 }
 
 // Ends from which the stripe goes on elsewhere: at a junction, where another strand begins in the
@@ -100,30 +77,30 @@ void name_junctions(const FrameVector<Place>& places, const FrameVector<Meeting>
 // where anything is seen.
 void find_ends_that_lead_on(const std::vector<RidgePoint>& points, const Sight& sight,
                             FrameVector<Strand>& strands) {
-  struct End {
-    int strand, side;
-    float at;       // column, or row
-    float inwards;  // to the strand's other end; px
+  const Memory memory = strands.get_allocator().resource();
+  const auto place = [&](const Strand& strand, int side) {  // column, or row
+    const RidgePoint& tip = points[side == 0 ? strand.points.front() : strand.points.back()];
+    return sight.along_rows ? tip.v : tip.u;
   };
-  FrameVector<End> ends(strands.get_allocator().resource());
-  for (int s = 0; s < static_cast<int>(strands.size()); ++s) {
-    const RidgePoint &first = points[strands[s].points.front()],
-                     &last = points[strands[s].points.back()];
-    const float a = sight.along_rows ? first.v : first.u, b = sight.along_rows ? last.v : last.u;
-    ends.push_back({s, 0, a, b - a});
-    ends.push_back({s, 1, b, a - b});
-  }
-  for (const End& end : ends) {
-    const bool out_of_sight = end.at < static_cast<float>(sight.first) + kStep ||
-                              end.at > static_cast<float>(sight.last) - kStep;
-    const bool steps = std::any_of(ends.begin(), ends.end(), [&](const End& other) {
-      return other.strand != end.strand && std::abs(other.at - end.at) <= kStep &&
-             std::abs(other.inwards) >= Strand::kLeastWay &&
-             (other.inwards > 0) != (end.inwards > 0);
-    });
-    strands[end.strand].leads_on[end.side] =
-        out_of_sight || steps || strands[end.strand].junction[end.side] >= 0;
-  }
+  // Where strands end that lead towards smaller columns from there, and towards larger ones.
+  std::array<FrameVector<float>, 2> ends{FrameVector<float>(memory), FrameVector<float>(memory)};
+  for (const Strand& strand : strands)
+    for (const int side : {0, 1}) {
+      const float at = place(strand, side), inwards = place(strand, 1 - side) - at;
+      if (std::abs(inwards) >= Strand::kLeastWay) ends[inwards > 0].push_back(at);
+    }
+  for (FrameVector<float>& places : ends) std::sort(places.begin(), places.end());
+  for (Strand& strand : strands)
+    for (const int side : {0, 1}) {
+      const float at = place(strand, side), inwards = place(strand, 1 - side) - at;
+      const bool out_of_sight = at < static_cast<float>(sight.first) + kStep ||
+                                at > static_cast<float>(sight.last) - kStep;
+      const FrameVector<float>& others = ends[!(inwards > 0)];
+      const auto near = std::partition_point(others.begin(), others.end(),
+                                             [&](float other) { return other - at < -kStep; });
+      const bool steps = near != others.end() && *near - at <= kStep;
+      strand.leads_on[side] = out_of_sight || steps || strand.junction[side] >= 0;
+    }
 }
 
 }  // namespace
@@ -131,22 +108,21 @@ void find_ends_that_lead_on(const std::vector<RidgePoint>& points, const Sight& 
 FrameVector<Strand> cut_at_junctions(const std::vector<RidgePoint>& points,
                                      const std::vector<Chain>& chains, const Sight& sight,
                                      double reach, Memory memory) {
-  FrameVector<Place> places(points.size(), memory);
+  FrameVector<ChainPlace> places(points.size(), memory);
   for (int c = 0; c < static_cast<int>(chains.size()); ++c)
     for (int i = 0; i < static_cast<int>(chains[c].size()); ++i) places[chains[c][i]] = {c, i};
-  FrameVector<Meeting> meetings(memory);
-  for (const Chain& chain : chains)
-    for (const bool last : {false, true})
-      find_meetings(points, places, chain, last, reach, meetings);
+  const FrameVector<Meeting> meetings = find_meetings(points, chains, places, reach, memory);
   FrameVector<FrameVector<int>> cuts(chains.size(), memory);
   for (const Meeting& meeting : meetings)
     cuts[places[meeting.point].chain].push_back(places[meeting.point].position);
 
   FrameVector<Strand> strands(memory);
+  FrameVector<int> first_strand(memory);
   const int near = 2 * static_cast<int>(std::ceil(reach));
   for (std::size_t c = 0; c < chains.size(); ++c) {
     const Chain& chain = chains[c];
     const int size = static_cast<int>(chain.size());
+    first_strand.push_back(static_cast<int>(strands.size()));
     std::sort(cuts[c].begin(), cuts[c].end());
     int begin = 0;
     const auto add = [&](int end) {
@@ -157,8 +133,9 @@ FrameVector<Strand> cut_at_junctions(const std::vector<RidgePoint>& points,
       if (cut - begin >= near && size - cut >= near) add(cut);
     add(size);
   }
-  name_junctions(places, meetings, near, strands);
-  if (!strands.empty()) find_ends_that_lead_on(points, sight, strands);
+  first_strand.push_back(static_cast<int>(strands.size()));
+  name_junctions(places, meetings, first_strand, near, strands);
+  find_ends_that_lead_on(points, sight, strands);
   return strands;
 }
 

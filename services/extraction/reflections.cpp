@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <map>
 #include <memory_resource>
 
@@ -59,41 +60,74 @@ void mark_at_corners(const std::vector<RidgePoint>& points, const Sight& sight,
       if (const int junction = strands[s].junction[side];
           junction >= 0 && junction != strands[s].junction[1 - side])
         junctions[junction].push_back(leave(points, sight, strands, s, side));
+  for (auto& [junction, leaving] : junctions)
+    std::sort(leaving.begin(), leaving.end(),
+              [](const Leaving& a, const Leaving& b) { return a.strength > b.strength; });
   for (const bool by_strength : {false, true})
     for (const auto& [junction, leaving] : junctions)
-      for (const Leaving& a : leaving)
-        for (const Leaving& b : leaving) {
-          Strand &suspect = strands[a.strand], &stripe = strands[b.strand];
-          if (a.strand == b.strand || a.forward != b.forward || !suspect.hangs() ||
-              stripe.reflection)
-            continue;
-          if (std::min(a.way, b.way) < Strand::kLeastWay) continue;
-          const bool fades = b.strength > a.strength && a.fade > kFades * b.fade;
-          if (by_strength ? b.strength > kStronger * a.strength || fades
-                          : !stripe.hangs() && b.strength > kFaintest * a.strength)
-            suspect.reflection = true;
+      for (const bool forward : {false, true}) {
+        const auto concerns = [&](const Leaving& one) {
+          return one.forward == forward && one.way >= Strand::kLeastWay;
+        };
+        // Of one that is a reflection itself the other is, too, of what that one is a reflection
+        // of: their order does not matter.
+        const auto may_be_stripe = [&](const Leaving& one) {
+          const Strand& strand = strands[one.strand];
+          return concerns(one) && !strand.reflection && (by_strength || !strand.hangs());
+        };
+        float strongest = 0;
+        for (const Leaving& one : leaving)
+          if (may_be_stripe(one)) strongest = std::max(strongest, one.strength);
+        float least_fade = std::numeric_limits<float>::max();  // of those that are stronger
+        auto stronger = leaving.begin();
+        for (const Leaving& one : leaving) {
+          for (; stronger->strength > one.strength; ++stronger)
+            if (may_be_stripe(*stronger)) least_fade = std::min(least_fade, stronger->fade);
+          const bool outdone =
+              by_strength ? strongest > kStronger * one.strength || one.fade > kFades * least_fade
+                          : strongest > kFaintest * one.strength;
+          if (outdone && concerns(one) && strands[one.strand].hangs())
+            strands[one.strand].reflection = true;
         }
+      }
 }
 
 void mark_beside(const std::vector<RidgePoint>& points, const Sight& sight,
                  FrameVector<Strand>& strands) {
   struct Seen {
-    int strand;
+    int line, strand;  // line: column, or row
     float across, curvature;
+    bool reflection;
   };
   const Memory memory = strands.get_allocator().resource();
-  std::pmr::map<int, FrameVector<Seen>> lines(memory);  // columns, or rows
+  FrameVector<Seen> seen(memory);
   for (int s = 0; s < static_cast<int>(strands.size()); ++s)
-    for (const int i : strands[s].points)
-      lines[sight.along_rows ? points[i].row : points[i].column].push_back(
-          {s, sight.along_rows ? points[i].u : points[i].v, points[i].curvature});
+    for (const int i : strands[s].points) {
+      const RidgePoint& p = points[i];
+      seen.push_back({sight.along_rows ? p.row : p.column, s, sight.along_rows ? p.u : p.v,
+                      p.curvature, strands[s].reflection});
+    }
+  std::sort(seen.begin(), seen.end(), [](const Seen& a, const Seen& b) {
+    return a.line != b.line ? a.line < b.line : a.curvature > b.curvature;
+  });
   FrameVector<int> outshone(strands.size(), 0, memory);
-  for (const auto& [line, seen] : lines)
-    for (const Seen& a : seen)
-      outshone[a.strand] += std::any_of(seen.begin(), seen.end(), [&](const Seen& b) {
-        return b.curvature > kStronger * a.curvature && std::abs(b.across - a.across) > kBeside &&
-               !strands[b.strand].reflection;
-      });
+  // Of those in a line that are stronger by far, how far up and down they lie.
+  std::size_t next = 0;
+  float lowest = 0, highest = 0;
+  for (std::size_t i = 0; i < seen.size(); ++i) {
+    const Seen& a = seen[i];
+    if (i == 0 || a.line != seen[i - 1].line) {
+      next = i;
+      lowest = std::numeric_limits<float>::max();
+      highest = std::numeric_limits<float>::lowest();
+    }
+    for (; seen[next].curvature > kStronger * a.curvature; ++next)
+      if (!seen[next].reflection) {
+        lowest = std::min(lowest, seen[next].across);
+        highest = std::max(highest, seen[next].across);
+      }
+    outshone[a.strand] += highest - a.across > kBeside || a.across - lowest > kBeside;
+  }
   for (std::size_t s = 0; s < strands.size(); ++s)
     if (strands[s].hangs() &&
         2 * outshone[s] > std::max(static_cast<int>(strands[s].points.size()), kEvidence))

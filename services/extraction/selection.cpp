@@ -12,6 +12,7 @@ constexpr float kBreakCost = 24;       // to leave a line for any other place
 constexpr int kNear = 4;               // columns within which a path goes on as on one line
 constexpr float kLongestNearJump = 6;  // px
 constexpr int kFar = 100;              // columns over which a line may be found again after a gap
+constexpr float kGapCost = 4;          // to find it again there, at least
 constexpr float kSameLine = 4;         // px: nearer points of a column belong to one stripe
 
 // By how much `to` lies off the line through both ends' slopes, px.
@@ -31,16 +32,19 @@ float Selector::leaving_cost(const Candidate& from, const Candidate& to) const {
            0.3f * static_cast<float>(to.line - from.line - 1);
   }
   // The same line found again beyond a gap.
-  return std::min(kBreakCost, 4 + 0.06f * gap + 6 * offset / (2 + 0.2f * gap));
+  return std::min(kBreakCost, kGapCost + 0.06f * gap + 6 * offset / (2 + 0.2f * gap));
 }
 
 FrameVector<int> Selector::best_path() const {
   const int count = candidates_.count();
   FrameVector<float> score(count, memory_);
   FrameVector<int> previous(count, -1, memory_), strand_ends(memory_);
-  int best = -1;  // of all in the lines before
+  int best = -1;             // of all in the lines before
+  std::size_t in_reach = 0;  // the first of strand_ends that is
   const int lines = candidates_.lines();
   for (int line = 0; line < lines; ++line) {
+    while (in_reach < strand_ends.size() && candidates_[strand_ends[in_reach]].line < line - kFar)
+      ++in_reach;
     for (int i = candidates_.line_begin[line]; i < candidates_.line_begin[line + 1]; ++i) {
       const Candidate& here = candidates_[i];
       float highest = 0;
@@ -53,8 +57,9 @@ FrameVector<int> Selector::best_path() const {
            j < candidates_.line_begin[line]; ++j)
         consider(j, leaving_cost(candidates_[j], here));
       if (here.starts_strand)
-        for (const int j : strand_ends)
-          if (candidates_[j].line < line - kNear && candidates_[j].line >= line - kFar)
+        for (std::size_t k = in_reach; k < strand_ends.size(); ++k)
+          if (const int j = strand_ends[k];
+              candidates_[j].line < line - kNear && score[j] - kGapCost > highest)
             consider(j, leaving_cost(candidates_[j], here));
       if (best >= 0) consider(best, kBreakCost);
       score[i] = highest + here.worth;
