@@ -131,7 +131,8 @@ void RidgeDetector::want_about(const RidgePoint& p, int reach, const GreyImage& 
     for (const int row : {top, bottom}) want(column, row);
 }
 
-// Found block by block: sorted by row in one go, then within each row, where most are in order.
+// Found tile by tile: sorted by row in one go, where most follow on those of their row that came
+// before, several at a time.
 void RidgeDetector::collect_in_raster_order(int height, std::vector<RidgePoint>& points) {
   row_begin_.assign(height + 1, 0);
   for (int row = 0; row < height; ++row) {
@@ -140,12 +141,26 @@ void RidgeDetector::collect_in_raster_order(int height, std::vector<RidgePoint>&
   }
   points.resize(static_cast<std::size_t>(row_begin_[height]));  // what it held is written over
   row_end_.assign(row_begin_.begin(), row_begin_.end());
+  const auto follows = [](const RidgePoint& p, const RidgePoint& before) {
+    return p.row == before.row && p.column > before.column;
+  };
   for (const Strip& strip : strips_)
-    for (const RidgePoint& point : strip.found) {
-      const int begin = row_begin_[point.row];
-      int at = row_end_[point.row]++;
-      for (; at > begin && points[at - 1].column > point.column; --at) points[at] = points[at - 1];
-      points[at] = point;
+    for (auto run = strip.found.begin(), end = run; run != strip.found.end(); run = end) {
+      end = run + 1;
+      while (end != strip.found.end() && follows(*end, *(end - 1))) ++end;
+      const auto row_begin = points.begin() + row_begin_[run->row];
+      auto at = points.begin() + row_end_[run->row];
+      row_end_[run->row] += static_cast<int>(end - run);
+      if (at == row_begin || follows(*run, *(at - 1)))
+        std::copy(run, end, at);
+      else
+        for (; run != end; ++run, ++at) {
+          const auto place =
+              std::upper_bound(row_begin, at, run->column,
+                               [](int column, const RidgePoint& p) { return column < p.column; });
+          std::move_backward(place, at, at + 1);
+          *place = *run;
+        }
     }
 }
 

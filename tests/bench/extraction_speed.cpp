@@ -74,6 +74,13 @@ std::vector<Row> rows_of_images() {
   }
   rows.emplace_back("worst");  // every block is active
   rows.back().images.push_back(expose(darkness(1600, 1200, 128), 40));
+  for (const int field : {2, 4, 8, 16}) {  // full of ridge points, but for the first
+    rows.emplace_back(fmt::format("checkers_{}", field));
+    cv::Mat& grey = rows.back().images.emplace_back(1200, 1600, CV_8U);
+    grey.forEach<std::uint8_t>([&](std::uint8_t& value, const int* at) {
+      value = (at[0] / field + at[1] / field) % 2 != 0 ? 255 : 0;
+    });
+  }
   return rows;
 }
 
