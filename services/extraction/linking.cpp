@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 namespace arcstart {
 namespace {
@@ -11,53 +12,85 @@ constexpr int kReach = RidgeDetector::kLineReach;
 constexpr float kLeastCosine = 0.8f;  // of the directions of neighbours: 37 degrees
 constexpr float kTurnCost = 3.0f;     // px per unit of 1 - cosine
 
-// What it costs to go on from p to q; side says on which side of p that is. Nothing below 0 is a
+// What it costs to go on from p to q, or from q to p; below 0 where neither is the other's
 // neighbour.
-float cost(const RidgePoint& p, const RidgePoint& q, int& side) {
+float cost(const RidgePoint& p, const RidgePoint& q) {
   const float du = q.u - p.u, dv = q.v - p.v, distance_squared = du * du + dv * dv;
-  if (distance_squared > kReach * kReach) return -1;
   const float cosine = std::abs(p.normal_u * q.normal_u + p.normal_v * q.normal_v);
-  if (cosine < kLeastCosine) return -1;
+  if (distance_squared > kReach * kReach || cosine < kLeastCosine) return -1;
+  return std::sqrt(distance_squared) + kTurnCost * (1 - cosine);
+}
+
+// On which side of p (du, dv) away is, if it is ahead on either; else -1.
+int side_of(const RidgePoint& p, float du, float dv) {
   const float along = -du * p.normal_v + dv * p.normal_u;
   const float across = std::abs(du * p.normal_u + dv * p.normal_v);
-  side = along > 0 ? 1 : 0;
   if (across > 0.3f + 0.7f * std::abs(along)) return -1;
-  return std::sqrt(distance_squared) + kTurnCost * (1 - cosine);
+  return along > 0 ? 1 : 0;
+}
+
+// False where there are no others.
+bool keep_strongest(const std::vector<RidgePoint>& points, int most_points,
+                    std::vector<Chain>& chains, Memory memory) {
+  std::size_t all = 0, room = static_cast<std::size_t>(most_points);
+  for (const Chain& chain : chains) all += chain.size();
+  if (all <= room) return false;
+  FrameVector<std::pair<double, std::size_t>> by_strength(memory);  // the strongest lowest
+  for (std::size_t c = 0; c < chains.size(); ++c) {
+    double sum = 0;
+    for (const int i : chains[c]) sum += points[i].curvature;
+    by_strength.push_back({-sum, c});
+  }
+  std::sort(by_strength.begin(), by_strength.end());
+  FrameVector<char> kept(chains.size(), 0, memory);
+  for (const auto& [strength, c] : by_strength)
+    if (chains[c].size() <= room) {
+      kept[c] = 1;
+      room -= chains[c].size();
+    }
+  std::size_t next = 0;
+  std::erase_if(chains, [&](const Chain&) { return kept[next++] == 0; });
+  return true;
 }
 
 }  // namespace
 
+// Each pair is looked at once. A point's neighbours come in raster order, of equally near ones the
+// first is best.
 void Linker::find_neighbours(const std::vector<RidgePoint>& points) {
   best_.assign(points.size(), {-1, -1});
+  lowest_.assign(points.size(), {1e9f, 1e9f});
   if (points.empty()) return;
   const int first_row = points.front().row, rows = points.back().row - first_row + 1;
   row_begin_.assign(rows + 1, 0);
   for (const RidgePoint& point : points) ++row_begin_[point.row - first_row + 1];
   for (int row = 0; row < rows; ++row) row_begin_[row + 1] += row_begin_[row];
 
-  std::array<int, 2 * kReach + 1>
-      cursor{};  // first point of each row near that is not left of the reach
+  const auto consider = [&](int i, int side, int q, float price) {
+    if (side < 0 || price >= lowest_[i][side]) return;
+    lowest_[i][side] = price;
+    best_[i][side] = q;
+  };
+  // First point, of each row from the point's own on, that is not left of the reach.
+  std::array<int, kReach + 1> cursor{};
   int row = -1;
   for (int i = 0; i < static_cast<int>(points.size()); ++i) {
     const RidgePoint& p = points[i];
     if (p.row - first_row != row) {
       row = p.row - first_row;
-      for (int k = -kReach; k <= kReach; ++k)
-        cursor[k + kReach] = row_begin_[std::clamp(row + k, 0, rows)];
+      for (int k = 0; k <= kReach; ++k) cursor[k] = row_begin_[std::min(row + k, rows)];
     }
-    std::array<float, 2> lowest{1e9f, 1e9f};
-    for (int k = -kReach; k <= kReach; ++k) {
-      if (row + k < 0 || row + k >= rows) continue;
-      int& j = cursor[k + kReach];
+    cursor[0] = i + 1;
+    for (int k = 0; k <= kReach && row + k < rows; ++k) {
+      int& j = cursor[k];
       const int end = row_begin_[row + k + 1];
       while (j < end && points[j].column < p.column - kReach) ++j;
       for (int q = j; q < end && points[q].column <= p.column + kReach; ++q) {
-        if (q == i) continue;
-        int side = 0;
-        const float price = cost(p, points[q], side);
-        if (price < 0 || price >= lowest[side]) continue;
-        lowest[side] = price;
-        best_[i][side] = q;
+        const float price = cost(p, points[q]);
+        if (price < 0) continue;
+        const float du = points[q].u - p.u, dv = points[q].v - p.v;
+        consider(i, side_of(p, du, dv), q, price);
+        consider(q, side_of(points[q], -du, -dv), i, price);
       }
     }
   }
@@ -87,9 +120,7 @@ void Linker::link(const std::vector<RidgePoint>& points, const LinkingSettings& 
     for (int side = 0; side < 2; ++side) {
       const int q = best_[i][side];
       if (q < 0) continue;
-      int back = 0;
-      cost(points[q], points[i], back);
-      if (best_[q][back] == i) linked_[i][side] = q;
+      if (best_[q][0] == i || best_[q][1] == i) linked_[i][side] = q;
     }
 
   taken_.assign(points.size(), 0);
@@ -106,6 +137,7 @@ void Linker::link(const std::vector<RidgePoint>& points, const LinkingSettings& 
       follow_and_keep(i, linked_[i][1] >= 0 ? 1 : 0);
   for (int i = 0; i < count; ++i)
     if (!taken_[i]) follow_and_keep(i, 1);
+  left_out_ = keep_strongest(points, settings.most_points, chains, memory);
 }
 
 }  // namespace arcstart

@@ -96,8 +96,9 @@ FrameVector<Meeting> find_meetings(const std::vector<RidgePoint>& points,
                                    Memory memory) {
   const PointGrid grid(points, chains, memory);
   FrameVector<Meeting> meetings(memory);
-  FrameVector<int> nearest(chains.size(), -1, memory);  // point of each chain
-  FrameVector<int> met(memory);                         // chains
+  FrameVector<int> nearest(chains.size(), -1, memory);     // point of each chain
+  FrameVector<float> lowest(chains.size(), 0.0f, memory);  // its distance from the end
+  FrameVector<int> met(memory);                            // chains
   for (const Chain& chain : chains)
     for (const bool last : {false, true}) {
       const Outlook outlook(points, chain, last, reach);
@@ -106,14 +107,13 @@ FrameVector<Meeting> find_meetings(const std::vector<RidgePoint>& points,
       grid.for_each_seen(outlook, points, [&](int i) {
         const int other = places[i].chain;
         if (other == places[end].chain) return;
+        const float distance = outlook.from_end(points[i]);
         int& best = nearest[other];
-        if (best < 0) {
-          met.push_back(other);
-          best = i;
+        if (best < 0) met.push_back(other);
+        if (best >= 0 && (distance > lowest[other] || (distance == lowest[other] && i > best)))
           return;
-        }
-        const float distance = outlook.from_end(points[i]), lowest = outlook.from_end(points[best]);
-        if (distance < lowest || (distance == lowest && i < best)) best = i;
+        best = i;
+        lowest[other] = distance;
       });
       std::sort(met.begin(), met.end());
       for (const int other : met) meetings.push_back({end, std::exchange(nearest[other], -1)});

@@ -21,6 +21,11 @@ constexpr double kSigmaStep = 1.0 / 32;  // px, of the sigma followed: kernels n
 constexpr double kFollowing = 0.2;       // share of the difference taken up by each image
 // Of centres by speckle, in sigma: of a contrast of 0.3 it is 0.08 to 0.12.
 constexpr double kMostScatter = 0.15;
+// Ridge points, and those in chains, per column of the image, or row, whichever are more. A stripe
+// has one to two; together with texture that is looked for with a strength far below the usual an
+// image holds up to 50, and 20 in chains. An image of more points is refused, since nothing can be
+// told from it; of more in chains the strongest chains are kept.
+constexpr int kMostPoints = 96, kMostChainPoints = 24;
 constexpr double kNearEnough = 0.1;  // share of sigma that makes no difference
 // Standard deviation of a second derivative under white noise is 0.2443 noise / sigma^3 (3 / (16
 // pi), rooted); what starts a segment stands out from it by eight times.
@@ -48,7 +53,7 @@ double StripeExtractor::strong_curvature(double sigma) const {
                   kNoiseCurvature * noise_ / (sigma * sigma * sigma));
 }
 
-void StripeExtractor::look_at(const GreyImage& image, double sigma) {
+bool StripeExtractor::look_at(const GreyImage& image, double sigma) {
   chains_.clear();
   selection_.branches.clear();
   memory_.take_back();
@@ -57,7 +62,11 @@ void StripeExtractor::look_at(const GreyImage& image, double sigma) {
   const double strong = strong_curvature(sigma);
   detector_.detect_lines(image, kernels_, settings_.weakest_share * strong, strong, border(),
                          points_);
-  linker_.link(points_, {strong, settings_.fewest_centres}, chains_, &memory_);
+  const int lines = std::max(image.width, image.height);
+  crowded_ = std::ssize(points_) > kMostPoints * lines ? points_.size() : 0;
+  if (crowded_ > 0) points_.clear();
+  linker_.link(points_, {strong, settings_.fewest_centres, kMostChainPoints * lines}, chains_,
+               &memory_);
   widths_.assign(points_.size(), 0);
   for (const Chain& chain : chains_)
     measure_widths(image, points_, chain, sigma, noise_, widths_, &memory_);
@@ -69,6 +78,7 @@ void StripeExtractor::look_at(const GreyImage& image, double sigma) {
   selection.margin = border();
   selection.junction_reach = 3 * sigma;
   selector_.select(points_, chains_, widths_, selection, selection_, &memory_);
+  return crowded_ == 0 && !linker_.left_out();
 }
 
 double StripeExtractor::chosen_strength() const {
@@ -95,18 +105,18 @@ double StripeExtractor::wanted_sigma() {
 // both the stronger is right, for strength is largest where sigma is the stripe's own width
 // (ridge.hpp).
 void StripeExtractor::find_scale(const GreyImage& image) {
-  look_at(image, kFirstLook);
+  if (!look_at(image, kFirstLook)) return;
   const double first = wanted_sigma();
   if (first == 0 || first > kLargestOfFirst || white_width(image) > kWidestWhite) {
     const double strength = chosen_strength();
-    look_at(image, kSecondLook);
+    if (!look_at(image, kSecondLook)) return;
     if (strength > chosen_strength()) look_at(image, kFirstLook);
   }
   for (int i = 0; i < 3; ++i) {
     const double wanted = wanted_sigma();
     if (wanted == 0) return;
     if (std::abs(wanted - used_sigma_) < kNearEnough * used_sigma_) break;
-    look_at(image, wanted);
+    if (!look_at(image, wanted)) return;
   }
   if (wanted_sigma() > 0) sigma_ = used_sigma_;
 }
@@ -235,7 +245,10 @@ void StripeExtractor::extract(const GreyImage& image, Stripe& stripe) {
     look_at(image, std::round(sigma_ / kSigmaStep) * kSigmaStep);
   measure(image);
   describe(image, stripe);
-  stripe.empty = stripe.centres.empty() ? "no stripe found" : "";
+  stripe.empty = !stripe.centres.empty() ? ""
+                 : crowded_ > 0
+                     ? std::to_string(crowded_) + " ridge points, too many to tell a stripe from"
+                     : "no stripe found";
   if (follows && sigma_ > 0) follow_scale();
 }
 

@@ -51,7 +51,8 @@ class StripeExtractor {
   double active_share() const { return detector_.active_share(); }  // of the last image's blocks
 
  private:
-  void look_at(const GreyImage& image, double sigma);
+  // False where the image is full of lines: not all of them were followed.
+  bool look_at(const GreyImage& image, double sigma);
   void find_scale(const GreyImage& image);
   void follow_scale();
   double chosen_strength() const;
@@ -70,6 +71,7 @@ class StripeExtractor {
   FrameMemory memory_;
   double noise_ = 0;
   double used_sigma_ = 0;
+  std::size_t crowded_ = 0;  // ridge points, where they are too many to tell a stripe from
   RidgeDetector detector_;
   Linker linker_;
   Selector selector_;
