@@ -105,17 +105,24 @@ double StripeExtractor::wanted_sigma() {
 // both the stronger is right, for strength is largest where sigma is the stripe's own width
 // (ridge.hpp).
 void StripeExtractor::find_scale(const GreyImage& image) {
+  const auto fits = [](double wanted, double sigma) {
+    return std::abs(wanted - sigma) < kNearEnough * sigma;
+  };
   if (!look_at(image, kFirstLook)) return;
+  int corrected = 0;
   const double first = wanted_sigma();
   if (first == 0 || first > kLargestOfFirst || white_width(image) > kWidestWhite) {
     const double strength = chosen_strength();
     if (!look_at(image, kSecondLook)) return;
-    if (strength > chosen_strength()) look_at(image, kFirstLook);
+    if (strength > chosen_strength()) {
+      corrected = fits(first, kFirstLook) ? 0 : 1;
+      if (!look_at(image, corrected > 0 ? first : kFirstLook)) return;
+    }
   }
-  for (int i = 0; i < 3; ++i) {
+  for (; corrected < 3; ++corrected) {
     const double wanted = wanted_sigma();
     if (wanted == 0) return;
-    if (std::abs(wanted - used_sigma_) < kNearEnough * used_sigma_) break;
+    if (fits(wanted, used_sigma_)) break;
     if (!look_at(image, wanted)) return;
   }
   if (wanted_sigma() > 0) sigma_ = used_sigma_;

@@ -34,19 +34,39 @@ void sample_profile(const GreyImage& image, float u, float v, float normal_u, fl
               far_v = std::abs(normal_v) * static_cast<float>(reach) + 1;
   const bool inside = u > far_u && v > far_v && u + far_u < static_cast<float>(image.width - 1) &&
                       v + far_v < static_cast<float>(image.height - 1);
-  for (int k = -reach; k <= reach; ++k) {
-    const float at_u = u + static_cast<float>(k) * normal_u,
-                at_v = v + static_cast<float>(k) * normal_v;
-    if (!inside) {
-      *profile++ = static_cast<float>(grey_at(image, at_u, at_v));
-      continue;
+  const int size = 2 * reach + 1;
+  if (!inside) {
+    for (int i = 0; i < size; ++i) {
+      const auto k = static_cast<float>(i - reach);
+      profile[i] = static_cast<float>(grey_at(image, u + k * normal_u, v + k * normal_v));
     }
-    const int column = static_cast<int>(at_u), row = static_cast<int>(at_v);
-    const float du = at_u - static_cast<float>(column), dv = at_v - static_cast<float>(row);
-    const std::uint8_t *above = image.row(row) + column, *below = above + image.stride;
-    const float a = static_cast<float>(above[0]) + du * static_cast<float>(above[1] - above[0]);
-    const float b = static_cast<float>(below[0]) + du * static_cast<float>(below[1] - below[0]);
-    *profile++ = a + dv * (b - a);
+    return;
+  }
+  // A step at a time for all, so that the compiler takes several at once where it can.
+  std::array<int, 2 * kMostReach + 1> columns, rows, above_left, above_right, below_left,
+      below_right;
+  std::array<float, 2 * kMostReach + 1> du, dv;
+  for (int i = 0; i < size; ++i) {
+    const auto k = static_cast<float>(i - reach);
+    const float at_u = u + k * normal_u, at_v = v + k * normal_v;
+    columns[i] = static_cast<int>(at_u);
+    rows[i] = static_cast<int>(at_v);
+    du[i] = at_u - static_cast<float>(columns[i]);
+    dv[i] = at_v - static_cast<float>(rows[i]);
+  }
+  for (int i = 0; i < size; ++i) {
+    const std::uint8_t *above = image.row(rows[i]) + columns[i], *below = above + image.stride;
+    above_left[i] = above[0];
+    above_right[i] = above[1];
+    below_left[i] = below[0];
+    below_right[i] = below[1];
+  }
+  for (int i = 0; i < size; ++i) {
+    const float a = static_cast<float>(above_left[i]) +
+                    du[i] * static_cast<float>(above_right[i] - above_left[i]);
+    const float b = static_cast<float>(below_left[i]) +
+                    du[i] * static_cast<float>(below_right[i] - below_left[i]);
+    profile[i] = a + dv[i] * (b - a);
   }
 }
 
