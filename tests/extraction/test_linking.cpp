@@ -126,3 +126,33 @@ TEST_CASE("any points are linked once, in chains whose neighbours are near") {
     for (const int i : chain) REQUIRE(++seen[i] == 1);
   }
 }
+
+TEST_CASE("where there is no room for all chains the strongest are kept, in their order") {
+  std::vector<RidgePoint> lines;
+  const auto add = [&](double v, int length, double curvature) {
+    for (int i = 0; i < length; ++i) lines.push_back(point(10 + i, v, 0, curvature));
+  };
+  add(10, 300, 1);  // its curvatures are 300 together
+  add(30, 50, 4);   // 200
+  add(50, 100, 1);  // 100
+  add(70, 20, 20);  // 400
+  const auto points = in_raster_order(lines);
+  const auto kept = [&](int most_points) {
+    std::vector<Chain> chains;
+    Linker linker;
+    linker.link(points, {0, 10, most_points}, chains);
+    std::vector<int> rows;
+    std::size_t all = 0;
+    for (const Chain& chain : chains) {
+      rows.push_back(points[chain.front()].row);
+      all += chain.size();
+    }
+    CHECK(linker.left_out() == (all < points.size()));
+    return rows;
+  };
+  CHECK(kept(470) == std::vector{10, 30, 50, 70});
+  CHECK(kept(469) == std::vector{10, 30, 70});
+  CHECK(kept(320) == std::vector{10, 70});
+  CHECK(kept(319) == std::vector{30, 50, 70});  // the longest one finds no room
+  CHECK(kept(19).empty());
+}
