@@ -161,6 +161,12 @@ std::uint32_t columns_within(const RidgeTile& tile) {
   return bits;
 }
 
+// Bit i: bent up more than down, no bright line.
+template <int kFloats>
+ARCSTART_INLINE_BODY std::uint32_t bent_up(Lanes<kFloats> uu, Lanes<kFloats> vv) {
+  return signs_of<kFloats>((typename Register<kFloats>::Mask)(0 - (uu + vv)));
+}
+
 template <int kFloats>
 ARCSTART_INLINE_BODY void find_in_chunk(const RidgeTile& tile, const Planes& planes, int first_row,
                                         int rows, BentPixels<kFloats>& pixels,
@@ -187,8 +193,8 @@ ARCSTART_INLINE_BODY void find_in_chunk(const RidgeTile& tile, const Planes& pla
       take_points(tile, false, pixels, points);
       for (int i = 0; i < kRows; ++i)
         if (bits[i] != 0)
-          add_pixels<kFloats>(bits[i], u[i], v[i], uu[i], uv[i], vv[i], tile.column + c,
-                              first_row + row + i, pixels);
+          add_pixels<kFloats>(bits[i] & ~bent_up<kFloats>(uu[i], vv[i]), u[i], v[i], uu[i], uv[i],
+                              vv[i], tile.column + c, first_row + row + i, pixels);
     }
 }
 
