@@ -112,7 +112,8 @@ void report(const std::string& path, const Stripe& stripe) {
     }
   }
   if (chosen == 0)
-    std::cerr << fmt::format("{}: no stripe found\n", path);
+    std::cerr << fmt::format("{}: {}\n", path,
+                             stripe.empty.empty() ? "no stripe found" : stripe.empty);
   else
     std::cerr << fmt::format(
         "{}: {} centres in {} segments, {} second candidates; sigma {:.2f} px, noise {:.2f}, "
