@@ -67,10 +67,15 @@ ARCSTART_INLINE_BODY void load_greys(const RidgeTile& tile, int v, int grey_stri
     for (int k = 0; k < size; ++k) greys[k] = row[reflect_101(begin + k, tile.image.width)];
 }
 
-// Two rows along u. Their loads are unaligned, for which eight floats at a time are best anywhere.
+// Rows filtered along u at once: as many as there are registers for.
+template <int kFloats>
+constexpr int kRowsAlongU = kFloats == 16 ? 4 : 2;
+
+// Their loads are unaligned, for which eight floats at a time are best anywhere.
 template <int kFloats>
 ARCSTART_INLINE_BODY void filter_rows(const RidgeTile& tile, const Planes& planes, int row) {
-  constexpr int kWidth = std::min(kFloats, 8), kAcross = kTileWidth / kWidth, kCount = 2 * kAcross;
+  constexpr int kWidth = std::min(kFloats, 8), kAcross = kTileWidth / kWidth,
+                kCount = kRowsAlongU<kFloats> * kAcross;
   using Values = Lanes<kWidth>;
   const float* centre = planes.grey + row * planes.grey_stride + tile.half_width;
   const auto place = [&](int i) {
@@ -214,7 +219,7 @@ ARCSTART_INLINE_BODY void find_ridge_points_in_body(const RidgeTile& tile,
     for (int i = begin; i < end; ++i)
       load_greys<kFloats>(tile, tile.row + done + i - half_width, planes.grey_stride,
                           planes.grey + i * planes.grey_stride);
-    for (int i = begin; i < end; i += 2) filter_rows<kFloats>(tile, planes, i);
+    for (int i = begin; i < end; i += kRowsAlongU<kFloats>) filter_rows<kFloats>(tile, planes, i);
     find_in_chunk<kFloats>(tile, planes, tile.row + done, rows, pixels, points);
   }
   take_points(tile, true, pixels, points);
