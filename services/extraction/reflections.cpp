@@ -69,8 +69,8 @@ void mark_at_corners(const std::vector<RidgePoint>& points, const Sight& sight,
         const auto concerns = [&](const Leaving& one) {
           return one.forward == forward && one.way >= Strand::kLeastWay;
         };
-        // Of one that is a reflection itself the other is, too, of what that one is a reflection
-        // of: their order does not matter.
+        // What outdoes one that outdoes another outdoes that, too: in which order they are marked
+        // does not matter.
         const auto may_be_stripe = [&](const Leaving& one) {
           const Strand& strand = strands[one.strand];
           return concerns(one) && !strand.reflection && (by_strength || !strand.hangs());
@@ -78,7 +78,7 @@ void mark_at_corners(const std::vector<RidgePoint>& points, const Sight& sight,
         float strongest = 0;
         for (const Leaving& one : leaving)
           if (may_be_stripe(one)) strongest = std::max(strongest, one.strength);
-        float least_fade = std::numeric_limits<float>::max();  // of those that are stronger
+        float least_fade = std::numeric_limits<float>::infinity();  // of those that are stronger
         auto stronger = leaving.begin();
         for (const Leaving& one : leaving) {
           for (; stronger->strength > one.strength; ++stronger)
