@@ -31,14 +31,6 @@ constexpr double kNearEnough = 0.1;  // share of sigma that makes no difference
 // pi), rooted); what starts a segment stands out from it by eight times.
 constexpr double kNoiseCurvature = 8 * 0.2443;
 
-// Width of a stripe along the image that would hold all its white pixels; px.
-double white_width(const GreyImage& image) {
-  std::int64_t white = 0;
-  for (int v = 0; v < image.height; ++v)
-    white += std::count(image.row(v), image.row(v) + image.width, 255);
-  return static_cast<double>(white) / std::max(image.width, image.height);
-}
-
 double median(FrameVector<float>& values) {
   if (values.empty()) return 0;
   const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
@@ -233,12 +225,6 @@ void StripeExtractor::measure_at(const GreyImage& image, double sigma) {
 
 int StripeExtractor::border() const {
   return settings_.smooth_course ? kBorder : RidgeDetector::margin(kernels_);
-}
-
-Stripe StripeExtractor::extract(const GreyImage& image) {
-  Stripe stripe;
-  extract(image, stripe);
-  return stripe;
 }
 
 void StripeExtractor::extract(const GreyImage& image, Stripe& stripe) {

@@ -42,7 +42,11 @@ class StripeExtractor {
   StripeExtractor(const StripeExtractor&) = delete;
   StripeExtractor& operator=(const StripeExtractor&) = delete;
 
-  Stripe extract(const GreyImage& image);
+  Stripe extract(const GreyImage& image) {
+    Stripe stripe;
+    extract(image, stripe);
+    return stripe;
+  }
   void extract(const GreyImage& image, Stripe& stripe);  // takes no memory that it has already
 
   // Forgets the scale: the next image is looked at as if it were the first.

@@ -195,6 +195,13 @@ double centre_deviation(double curvature, double sigma, double noise) {
   return 0.1995 * noise / (curvature * sigma * sigma);
 }
 
+double white_width(const GreyImage& image) {
+  std::int64_t white = 0;
+  for (int v = 0; v < image.height; ++v)
+    white += std::count(image.row(v), image.row(v) + image.width, 255);
+  return static_cast<double>(white) / std::max(image.width, image.height);
+}
+
 bool is_saturated(const GreyImage& image, double u, double v) {
   const int column = std::clamp(static_cast<int>(std::lround(u)), 0, image.width - 1);
   const int row = std::clamp(static_cast<int>(std::lround(v)), 0, image.height - 1);

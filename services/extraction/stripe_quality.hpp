@@ -31,4 +31,7 @@ double centre_deviation(double curvature, double sigma, double noise);
 
 bool is_saturated(const GreyImage& image, double u, double v);  // the nearest pixel is at 255
 
+// Width of a stripe along the image that would hold all its white pixels; px.
+double white_width(const GreyImage& image);
+
 }  // namespace arcstart
