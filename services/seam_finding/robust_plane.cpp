@@ -2,7 +2,7 @@
 
 #include <Eigen/LU>
 #include <algorithm>
-#include <bit>
+#include <array>
 #include <bitset>
 #include <cmath>
 #include <cstdint>
@@ -15,11 +15,15 @@ constexpr std::size_t kLeastPoints = 20;
 constexpr double kTukey = 4.685;               // standard deviations
 constexpr double kMedianToDeviation = 1.4826;  // of normal noise
 constexpr std::size_t kStrips = 16;
+constexpr std::size_t kBins = 1024;  // of the points' distances from the line
 constexpr double kStripNoise = 0.25;  // of a strip's mean height, over the points' noise
 constexpr double kStripDeviations = 2.5;
 constexpr double kRoughness = 1.5;  // a plate's spread over the cloud's noise that is no roughness
 constexpr double kLeastSpread = 3;  // of a plate's points within their plane, over their noise
-constexpr double kSettled = 1e-8;   // mm, and mm for each mm: a step that changes nothing any more
+// A step that changes nothing any more: the noise leaves the height of a plane of thousands of
+// points uncertain by a hundred times as much. mm, and over kReach.
+constexpr double kSettled = 1e-5;
+constexpr double kReach = 60;  // mm
 constexpr std::size_t kLanes = 4;
 constexpr std::size_t kBlock = 1024;  // points summed in floats before doubles take over
 
@@ -43,14 +47,15 @@ class Heights {
     const std::size_t padded = (points.size() + kLanes - 1) / kLanes * kLanes;
     a_.assign(padded, 0), b_.assign(padded, 0), distance_.assign(padded, 0);
     h_.assign(padded, kFarOff);
-    for (std::size_t i = 0; i < points.size(); ++i) {
+    count_ = points.size();
+    for (std::size_t i = 0; i < count_; ++i) {
       const Eigen::Vector3d p = points[i] - origin_;
       a_[i] = static_cast<float>(along_.dot(p));
       b_[i] = static_cast<float>(across_.dot(p));
       h_[i] = static_cast<float>(normal_.dot(p));
-      distance_[i] = std::sqrt(b_[i] * b_[i] + h_[i] * h_[i]);
     }
-    count_ = points.size();
+    for (std::size_t i = 0; i < count_; ++i)
+      distance_[i] = std::sqrt(b_[i] * b_[i] + h_[i] * h_[i]);
   }
 
   // height = offset + along * a + across * b: a plane not far from the first.
@@ -71,7 +76,9 @@ class Heights {
   }
 
   Model narrowed(Model model, double noise, std::initializer_list<double> limits) const;
-  Heights chosen(const std::vector<int>& points) const;
+  // The same, but that only those of some strips count. strip_of: of each point.
+  using Strips = std::bitset<kStrips>;
+  Heights chosen(const std::vector<std::uint8_t>& strip_of, const Strips& strips) const;
 
  private:
   static constexpr float kFarOff = 1e9f;  // mm: no limit reaches so far
@@ -97,8 +104,8 @@ Heights::Sums Heights::weighted_sums(const Model& model, double reach) const {
       const Lanes4 off = load4(&h_[i]) - offset - along * pa - across * pb;
       const Lanes4 rest = 1 - (off * share) * (off * share);
       const Lanes4 inside = rest > 0 ? rest : Lanes4{};
-      const Lanes4 weight = inside * inside, counted = inside > 0 ? off : Lanes4{};
-      const Lanes4 wa = weight * pa, wb = weight * pb, wr = weight * counted;
+      const Lanes4 weight = inside * inside;
+      const Lanes4 wa = weight * pa, wb = weight * pb, wr = weight * off;
       w += weight, a += wa, b += wb, r += wr;
       aa += wa * pa, ab += wa * pb, bb += wb * pb, ra += wr * pa, rb += wr * pb;
     }
@@ -130,21 +137,16 @@ Heights::Model Heights::narrowed(Model model, double noise,
     normal_equations << s.w, s.a, s.b, s.a, s.aa, s.ab, s.b, s.ab, s.bb;
     const Eigen::Vector3d step = normal_equations.inverse() * Eigen::Vector3d(s.r, s.ra, s.rb);
     model.offset += step[0], model.along += step[1], model.across += step[2];
-    settled_at = step.cwiseAbs().maxCoeff() < kSettled ? limit : 0;
+    const double change = std::abs(step[0]) + kReach * (std::abs(step[1]) + std::abs(step[2]));
+    settled_at = change < kSettled ? limit : 0;
   }
   return model;
 }
 
-Heights Heights::chosen(const std::vector<int>& points) const {
+Heights Heights::chosen(const std::vector<std::uint8_t>& strip_of, const Strips& strips) const {
   Heights some = *this;
-  const std::size_t padded = (points.size() + kLanes - 1) / kLanes * kLanes;
-  some.count_ = points.size();
-  some.a_.assign(padded, 0), some.b_.assign(padded, 0), some.distance_.assign(padded, 0);
-  some.h_.assign(padded, kFarOff);
-  for (std::size_t i = 0; i < points.size(); ++i) {
-    const int j = points[i];
-    some.a_[i] = a_[j], some.b_[i] = b_[j], some.h_[i] = h_[j], some.distance_[i] = distance_[j];
-  }
+  for (std::size_t i = 0; i < count_; ++i)
+    if (!strips[strip_of[i]]) some.h_[i] = kFarOff;
   return some;
 }
 
@@ -159,64 +161,60 @@ double spread_about(const Heights& points) {
   return kMedianToDeviation * *middle;
 }
 
-// A strip of a plate along the seam.
-struct Strip {
-  std::size_t first = 0, last = 0;  // points
-  double distance = 0, height = 0;  // means; mm
-};
-
-// The points' places in order of their distance from the line, as far as strips of equal numbers
-// need it.
-std::vector<int> order_by_strips(const Heights& points) {
-  // A number that rises with the distance, and of equals with the place: its bits before the
-  // place's.
-  std::vector<std::uint64_t> order(points.size());
-  for (std::size_t i = 0; i < order.size(); ++i)
-    order[i] = std::uint64_t{std::bit_cast<std::uint32_t>(points.distance(i))} << 32 | i;
-  const auto border = [&](std::size_t strip) {
-    return order.begin() + static_cast<std::ptrdiff_t>(order.size() * strip / kStrips);
-  };
-  for (std::size_t width = kStrips; width > 1; width /= 2)
-    for (std::size_t k = 0; k < kStrips; k += width)
-      if (border(k + width / 2) != border(k + width))
-        std::nth_element(border(k), border(k + width / 2), border(k + width));
-  std::vector<int> places;
-  places.reserve(order.size());
-  for (const std::uint64_t one : order) places.push_back(static_cast<int>(one & 0xffffffff));
-  return places;
+// The strip along the line that each point lies in: strips of about as many points, counted from
+// the line outward.
+std::vector<std::uint8_t> strips_of(const Heights& points) {
+  float low = points.distance(0), high = low;
+  for (std::size_t i = 0; i < points.size(); ++i)
+    low = std::min(low, points.distance(i)), high = std::max(high, points.distance(i));
+  const float bins_each_mm = (kBins - 1) / std::max(high - low, 1e-6f);
+  std::vector<std::uint16_t> bins(points.size());
+  std::array<std::size_t, kBins> counts{};
+  for (std::size_t i = 0; i < points.size(); ++i)
+    ++counts[bins[i] = static_cast<std::uint16_t>((points.distance(i) - low) * bins_each_mm)];
+  std::array<std::uint8_t, kBins> strip_of_bin{};
+  std::size_t before = 0;
+  for (std::size_t k = 0; k < kBins; ++k) {
+    strip_of_bin[k] =
+        static_cast<std::uint8_t>((before + counts[k] / 2) * kStrips / (points.size() + 1));
+    before += counts[k];
+  }
+  std::vector<std::uint8_t> strips(points.size());
+  for (std::size_t i = 0; i < points.size(); ++i) strips[i] = strip_of_bin[bins[i]];
+  return strips;
 }
 
-// The points in strips of which most lie on one line, seen along the seam. The stripe's reflection
-// from the other plate shifts its centre by a tenth of a millimetre over wide strips of a plate:
-// far less than single points scatter, so that only their means tell.
-std::vector<int> in_line(const Heights& points, const Heights::Model& model, double noise) {
-  const std::vector<int> order = order_by_strips(points);
-  std::vector<Strip> strips(kStrips);
-  for (std::size_t k = 0; k < kStrips; ++k) {
-    Strip& strip = strips[k];
-    strip.first = order.size() * k / kStrips;
-    strip.last = order.size() * (k + 1) / kStrips;
-    double weight = 0;
-    for (std::size_t i = strip.first; i < strip.last; ++i) {
-      const auto point = static_cast<std::size_t>(order[i]);
-      const double height = points.residual(model, point);
-      if (std::abs(height) > kTukey * noise) continue;
-      strip.distance += points.distance(point), strip.height += height, ++weight;
-    }
-    if (weight == 0) return order;
-    strip.distance /= weight, strip.height /= weight;
+// The strips of which most lie on one line, seen along the seam. The stripe's reflection from the
+// other plate shifts its centre by a tenth of a millimetre over wide strips of a plate: far less
+// than single points scatter, so that only their means tell. All where no line is plain.
+Heights::Strips in_line(const Heights& points, const std::vector<std::uint8_t>& strip_of,
+                        const Heights::Model& model, double noise) {
+  struct Strip {
+    double distance = 0, height = 0, weight = 0;  // sums, then means; mm
+  };
+  std::array<Strip, kStrips> strips{};
+  for (std::size_t i = 0; i < points.size(); ++i) {
+    const double height = points.residual(model, i);
+    if (std::abs(height) > kTukey * noise) continue;
+    Strip& strip = strips[strip_of[i]];
+    strip.distance += points.distance(i), strip.height += height, ++strip.weight;
+  }
+  const Heights::Strips all = Heights::Strips().set();
+  for (Strip& strip : strips) {
+    if (strip.weight == 0) return all;
+    strip.distance /= strip.weight, strip.height /= strip.weight;
   }
   const double agree =
       noise *
       std::max(kStripNoise, kStripDeviations * std::sqrt(static_cast<double>(kStrips) /
                                                          static_cast<double>(points.size())));
-  std::bitset<kStrips> most;
+  Heights::Strips most;
   double best_off = 0;
   for (std::size_t a = 0; a < kStrips; ++a)
     for (std::size_t b = a + kStrips / 4; b < kStrips; ++b) {
       const double slope = (strips[b].height - strips[a].height) /
                            std::max(1e-6, strips[b].distance - strips[a].distance);
-      std::bitset<kStrips> on_it;
+      Heights::Strips on_it;
       double off = 0;
       for (std::size_t k = 0; k < kStrips; ++k) {
         const double residual = std::abs(strips[k].height - strips[a].height -
@@ -226,13 +224,7 @@ std::vector<int> in_line(const Heights& points, const Heights::Model& model, dou
       if (on_it.count() > most.count() || (on_it.count() == most.count() && off < best_off))
         most = on_it, best_off = off;
     }
-  if (2 * most.count() < kStrips) return order;
-  std::vector<int> kept;
-  for (std::size_t k = 0; k < kStrips; ++k)
-    if (most[k])
-      kept.insert(kept.end(), order.begin() + static_cast<std::ptrdiff_t>(strips[k].first),
-                  order.begin() + static_cast<std::ptrdiff_t>(strips[k].last));
-  return kept;
+  return 2 * most.count() < kStrips ? all : most;
 }
 
 }  // namespace
@@ -242,9 +234,9 @@ Plane robust_plane(const std::vector<Eigen::Vector3d>& points, const Line& line,
   if (points.size() < kLeastPoints) return plane;
   const Heights heights(points, line, plane);
   const double allowed = std::max(noise, spread_about(heights) / kRoughness);
-  Heights::Model model =
-      heights.narrowed({}, allowed, {4.0, 4.0, 2.0, 2.0, 1.0, 1.0, 0.6, 0.6, 0.6, 0.6});
-  model = heights.chosen(in_line(heights, model, allowed))
+  Heights::Model model = heights.narrowed({}, allowed, {4.0, 4.0, 2.0, 2.0, 1.0, 1.0});
+  const auto strip_of = strips_of(heights);
+  model = heights.chosen(strip_of, in_line(heights, strip_of, model, allowed))
               .narrowed(model, allowed, {1.0, 1.0, 0.6, 0.6, 0.6, 0.6});
   return heights.plane(model);
 }
