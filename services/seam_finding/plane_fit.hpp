@@ -15,10 +15,11 @@ class PlaneSums {
   explicit PlaneSums(const Eigen::Vector3d& origin = Eigen::Vector3d::Zero()) : origin_(origin) {}
 
   void add(const Eigen::Vector3d& point, double weight = 1) {
-    const Eigen::Vector3d p = point - origin_;
+    const Eigen::Vector3d p = point - origin_, q = weight * p;
     weight_ += weight;
-    sum_ += weight * p;
-    squares_.noalias() += weight * p * p.transpose();
+    sum_ += q;
+    xx_ += q.x() * p.x(), xy_ += q.x() * p.y(), xz_ += q.x() * p.z();
+    yy_ += q.y() * p.y(), yz_ += q.y() * p.z(), zz_ += q.z() * p.z();
   }
   // All of them that `chosen` names, one after the other.
   void add(const std::vector<Eigen::Vector3d>& points, const std::vector<int>& chosen);
@@ -39,7 +40,7 @@ class PlaneSums {
   Eigen::Vector3d origin_;
   double weight_ = 0;
   Eigen::Vector3d sum_ = Eigen::Vector3d::Zero();
-  Eigen::Matrix3d squares_ = Eigen::Matrix3d::Zero();
+  double xx_ = 0, xy_ = 0, xz_ = 0, yy_ = 0, yz_ = 0, zz_ = 0;
 };
 
 }  // namespace arcstart

@@ -1,5 +1,7 @@
 #include "services/seam_finding/plane_points.hpp"
 
+#include <algorithm>
+#include <array>
 #include <cmath>
 
 namespace arcstart {
@@ -32,15 +34,25 @@ int PlanePoints::count_near(const Plane& plane, double tolerance, std::size_t fi
   return near;
 }
 
+// In blocks: all distances of one side by side, then what is near of it.
 void PlanePoints::find_near(const Plane& plane, double tolerance, std::vector<int>& near) const {
+  constexpr std::size_t kBlock = 64;
   const Coefficients c = from_origin(plane, tolerance);
-  near.resize(size());
-  std::size_t found = 0;
-  for (std::size_t i = 0; i < size(); ++i) {
-    near[found] = places_[i];
-    found += std::abs(c.x * x_[i] + c.y * y_[i] + c.z * z_[i] + c.offset) <= c.tolerance;
+  near.clear();
+  std::array<float, kBlock> off;
+  std::array<int, kBlock> found;
+  for (std::size_t first = 0; first < size(); first += kBlock) {
+    const std::size_t count = std::min(kBlock, size() - first);
+    const float *x = &x_[first], *y = &y_[first], *z = &z_[first];
+    for (std::size_t i = 0; i < count; ++i)
+      off[i] = std::abs(c.x * x[i] + c.y * y[i] + c.z * z[i] + c.offset);
+    std::size_t some = 0;
+    for (std::size_t i = 0; i < count; ++i) {
+      found[some] = places_[first + i];
+      some += off[i] <= c.tolerance;
+    }
+    near.insert(near.end(), found.begin(), found.begin() + static_cast<std::ptrdiff_t>(some));
   }
-  near.resize(found);
 }
 
 void PlanePoints::remove(const std::vector<int>& places) {
