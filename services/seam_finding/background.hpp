@@ -55,7 +55,6 @@ class SurfaceBackground : public Background {
     double apart = 0;  // mm; infinite where not all are planes
   };
   Surroundings look_around(const NeighbourGrid::Cell& middle, std::span<const int> cells) const;
-  bool contains(const Eigen::Vector3d& point, const Surroundings& around) const;
   bool nearest_contains(const Eigen::Vector3d& point, std::span<const int> cells) const;
 
   Sampling sampling_;

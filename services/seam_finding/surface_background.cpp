@@ -1,5 +1,7 @@
 #include <algorithm>
+#include <array>
 #include <cmath>
+#include <utility>
 
 #include "services/seam_finding/background.hpp"
 
@@ -75,15 +77,6 @@ SurfaceBackground::Surroundings SurfaceBackground::look_around(const NeighbourGr
   return around;
 }
 
-bool SurfaceBackground::contains(const Eigen::Vector3d& point, const Surroundings& around) const {
-  if (around.cells.empty()) return false;
-  // Whichever surface is the nearest: the answer is plain but for a narrow range of distances.
-  const double about = std::abs(around.common.signed_distance(point));
-  if (about + around.apart < distance_) return true;
-  if (about - around.apart > distance_) return false;
-  return nearest_contains(point, around.cells);
-}
-
 bool SurfaceBackground::nearest_contains(const Eigen::Vector3d& point,
                                          std::span<const int> cells) const {
   int nearest = cells.front();
@@ -113,27 +106,48 @@ bool SurfaceBackground::contains(const Eigen::Vector3d& point) const {
   return inside.front();
 }
 
-// A stripe runs through one cell for many points.
+// A stripe runs through one cell for many points, or to and fro between two along their border.
+// Whichever surface is the nearest there: the answer is plain but for a narrow range of distances
+// from the common one.
 void SurfaceBackground::classify(std::span<const Eigen::Vector3d> points,
                                  std::vector<char>& inside) const {
   const double from = kWithinCell, to = grid_.cell_size() - kWithinCell;
-  Eigen::Vector3d corner = Eigen::Vector3d::Constant(INFINITY);  // of no cell yet
-  Surroundings around;
-  std::vector<int> cells;
-  for (const Eigen::Vector3d& point : points) {
-    const Eigen::Array3d place = point - corner;
-    if (!(place.minCoeff() > from && place.maxCoeff() < to)) {
-      const NeighbourGrid::Cell cell = grid_.cell_of(point);
-      corner = cell.cast<double>() * grid_.cell_size();
-      if (const int index = grid_.index_of(cell); index >= 0) {
-        around = surroundings_[static_cast<std::size_t>(index)];
-      } else {
-        cells.clear();
-        grid_.for_each_around(cell, [&](int i) { cells.push_back(i); });
-        around = look_around(cell, cells);
-      }
+  struct Place {
+    Eigen::Vector3d corner = Eigen::Vector3d::Constant(INFINITY);  // of no cell yet
+    Surroundings around;
+    std::vector<int> cells;
+  };
+  std::array<Place, 2> places;
+  Place *here = &places[0], *before = &places[1];
+  const auto within = [&](double from_corner) { return from_corner > from && from_corner < to; };
+  const auto is_here = [&](const Eigen::Vector3d& point) {
+    return within(point.x() - here->corner.x()) && within(point.y() - here->corner.y()) &&
+           within(point.z() - here->corner.z());
+  };
+  const auto go_to = [&](const Eigen::Vector3d& point) {
+    const NeighbourGrid::Cell cell = grid_.cell_of(point);
+    here->corner = cell.cast<double>() * grid_.cell_size();
+    if (const int index = grid_.index_of(cell); index >= 0) {
+      here->around = surroundings_[static_cast<std::size_t>(index)];
+      return;
     }
-    inside.push_back(contains(point, around));
+    here->cells.clear();
+    grid_.for_each_around(cell, [&](int i) { here->cells.push_back(i); });
+    here->around = look_around(cell, here->cells);
+  };
+  const std::size_t first = inside.size();
+  inside.resize(first + points.size(), false);
+  for (std::size_t i = 0; i < points.size(); ++i) {
+    if (!is_here(points[i])) {
+      std::swap(here, before);
+      if (!is_here(points[i])) go_to(points[i]);
+    }
+    const Surroundings& around = here->around;
+    if (around.cells.empty()) continue;
+    const double about = std::abs(around.common.signed_distance(points[i]));
+    inside[first + i] =
+        about + around.apart < distance_ ||
+        (about - around.apart <= distance_ && nearest_contains(points[i], around.cells));
   }
 }
 
