@@ -24,10 +24,11 @@ ScanStripe::Seen seen_in(const profile_t& profile) {
 float step_at(const profile_t& profile, int i) {
   for (const int j : {i - 1, i + 1}) {
     if (j < 0 || j >= profile.count || profile.segment[j] != profile.segment[i]) continue;
-    const float pixels = std::hypot(profile.u[j] - profile.u[i], profile.v[j] - profile.v[i]);
-    const float way = std::hypot(profile.x[j] - profile.x[i], profile.y[j] - profile.y[i],
-                                 profile.z[j] - profile.z[i]);
-    if (pixels > 0.5f) return way / pixels;
+    const float u = profile.u[j] - profile.u[i], v = profile.v[j] - profile.v[i];
+    const float x = profile.x[j] - profile.x[i], y = profile.y[j] - profile.y[i],
+                z = profile.z[j] - profile.z[i];
+    const float pixels = std::sqrt(u * u + v * v);
+    if (pixels > 0.5f) return std::sqrt(x * x + y * y + z * z) / pixels;
   }
   return 0;
 }
