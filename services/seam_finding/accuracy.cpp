@@ -9,7 +9,7 @@ namespace arcstart {
 namespace {
 
 constexpr double kFloor = 0.005;  // of a plane's height: what all its points have in common; mm
-constexpr std::size_t kEnough = 4096;  // points of a plate, evenly taken, tell how they scatter
+constexpr std::size_t kEnough = 2048;  // points of a plate, evenly taken, tell how they scatter
 constexpr int kLeastStripes = 3;
 constexpr double kOutlier = 3;  // standard deviations
 
@@ -45,10 +45,13 @@ PlaneAccuracy plane_accuracy(const ScanCloud& cloud, const JointPlate& plate,
   const Eigen::Vector3d away = away_from_seam(plate, other);
   const std::size_t every = 1 + plate.points.size() / kEnough;
   std::vector<int> beside;
+  beside.reserve(plate.points.size() / every + 1);
   Spread all;
   for (std::size_t k = 0; k < plate.points.size(); k += every) {
     const int i = plate.points[k];
-    if (line.distance(cloud.points[i]) > distance_mm) continue;
+    const Eigen::Vector3d p = cloud.points[i] - line.point;
+    const double t = line.direction.dot(p);
+    if (p.squaredNorm() - t * t > distance_mm * distance_mm) continue;
     beside.push_back(i);
     all.add(plate.plane.signed_distance(cloud.points[i]));
   }

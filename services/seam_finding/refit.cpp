@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numeric>
 
 #include "services/seam_finding/outliers.hpp"
 #include "services/seam_finding/plane_fit.hpp"
@@ -13,7 +14,7 @@ namespace {
 constexpr int kLeastPoints = 20;
 constexpr std::size_t kSoughtAgain =
     4096;                              // of more points the outliers are sought in one pass alone
-constexpr std::size_t kEnough = 4096;  // points of a plate; of more, means over so many neighbours
+constexpr std::size_t kEnough = 2048;  // points of a plate; of more, means over so many neighbours
                                        // of a stripe that it is as few. Points of no stripe have
                                        // no neighbours
 // The stripe's centre is drawn aside so near the other plate; mm.
@@ -28,10 +29,11 @@ std::vector<int> beside(const ScanCloud& cloud, const Joint& joint, int plate, c
   points.reserve(joint.plates[plate].points.size());
   for (const int i : joint.plates[plate].points) {
     const Eigen::Vector3d& point = cloud.points[i];
-    const double t = joint.line.along(point);
+    const Eigen::Vector3d p = point - joint.line.point;
+    const double t = joint.line.direction.dot(p);
     if (cloud.origins[i].segment_end || t < from || t > to ||
         std::abs(other.signed_distance(point)) < bend ||
-        (point - joint.line.at(t)).squaredNorm() > refit.distance * refit.distance)
+        p.squaredNorm() - t * t > refit.distance * refit.distance)
       continue;
     points.push_back(i);
   }
@@ -70,14 +72,17 @@ std::vector<int> grown_along_stripes(const ScanCloud& cloud, const JointPlate& p
            std::abs(plate.plane.signed_distance(cloud.points[i])) <= tolerance &&
            other.plane.signed_distance(cloud.points[i]) > tolerance;
   };
-  for (std::size_t k = 0; k < plate.points.size(); ++k) {
-    const int point = plate.points[k];
+  const std::vector<int>& points = plate.points;
+  for (std::size_t begin = 0, end = 0; begin < points.size(); begin = end) {
+    for (end = begin + 1; end < points.size() && points[end] == points[end - 1] + 1;) ++end;
     const int taken = grown.empty() ? -1 : grown.back();
-    const int next = k + 1 < plate.points.size() ? plate.points[k + 1] : cloud.size();
-    int first = point, last = point;
-    while (first - 1 > taken && goes_on(first - 1, point)) --first;
-    while (last + 1 < next && goes_on(last + 1, point)) ++last;
-    for (int i = first; i <= last; ++i) grown.push_back(i);
+    const int next = end < points.size() ? points[end] : cloud.size();
+    int first = points[begin], last = points[end - 1];
+    while (first - 1 > taken && goes_on(first - 1, points[begin])) --first;
+    while (last + 1 < next && goes_on(last + 1, points[end - 1])) ++last;
+    const auto place = static_cast<std::ptrdiff_t>(grown.size());
+    grown.resize(grown.size() + static_cast<std::size_t>(last - first + 1));
+    std::iota(grown.begin() + place, grown.end(), first);
   }
   return grown;
 }

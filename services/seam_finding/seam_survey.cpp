@@ -23,12 +23,21 @@ struct Seen {
   double place() const { return along / std::max(1, count[0] + count[1]); }
 };
 
-// Whether a point is metal that stands before both plates at the seam.
-bool on_bead(const Eigen::Vector3d& point, const std::array<JointPlate, 2>& plates,
-             const Line& line) {
-  return plates[0].plane.signed_distance(point) >= kTackHeight &&
-         plates[1].plane.signed_distance(point) >= kTackHeight &&
-         line.distance(point) <= kTackReach;
+// Visits each of the points from `first` to `last` that is metal standing before both plates at the
+// seam, with its place along it.
+template <class Visit>
+void for_each_on_bead(const ScanCloud& cloud, int first, int last,
+                      const std::array<JointPlate, 2>& plates, const Line& line, Visit visit) {
+  const Plane one = plates[0].plane, other = plates[1].plane;
+  for (int i = first; i < last; ++i) {
+    const Eigen::Vector3d& p = cloud.points[i];
+    // Component by component: most of a scan's points end here.
+    const double height =
+        one.normal.x() * p.x() + one.normal.y() * p.y() + one.normal.z() * p.z() + one.offset;
+    if (height >= kTackHeight && other.signed_distance(p) >= kTackHeight &&
+        line.distance(p) <= kTackReach)
+      visit(i, line.along(p));
+  }
 }
 
 }  // namespace
@@ -45,8 +54,9 @@ std::vector<SurveyPlace> survey_seam(const ScanCloud& cloud,
   int last_place = 0;
   for (int j = 0; j < 2; ++j)
     for (const int i : plates[j].points) {
-      const double along = line.along(cloud.points[i]), away = line.distance(cloud.points[i]);
-      if (away < kFrom || away > kTo || cloud.origins[i].segment_end) continue;
+      const Eigen::Vector3d p = cloud.points[i] - line.point;
+      const double along = line.direction.dot(p), squared = p.squaredNorm() - along * along;
+      if (squared < kFrom * kFrom || squared > kTo * kTo || cloud.origins[i].segment_end) continue;
       const int place = key(i, along);
       if (last == nullptr || place != last_place) last = &by_stripe[place], last_place = place;
       Seen& seen = *last;
@@ -57,18 +67,18 @@ std::vector<SurveyPlace> survey_seam(const ScanCloud& cloud,
   std::erase_if(by_stripe, [&](const auto& one) {
     return one.second.place() < begin || one.second.place() > end;
   });
-  const auto count_bead = [&](int i) {
-    if (!on_bead(cloud.points[i], plates, line)) return;
-    const double along = line.along(cloud.points[i]);
+  const auto count_bead = [&](int i, double along) {
     if (along < begin || along > end) return;
     const auto found = by_stripe.find(key(i, along));
     if (found != by_stripe.end()) ++found->second.bead;
   };
   if (cloud.organised()) {
-    for (const auto& [k, seen] : by_stripe)
-      for (int i = 0; i < cloud.stripes[k].count; ++i) count_bead(cloud.stripes[k].first + i);
+    for (const auto& [k, seen] : by_stripe) {
+      const ScanStripe& stripe = cloud.stripes[k];
+      for_each_on_bead(cloud, stripe.first, stripe.first + stripe.count, plates, line, count_bead);
+    }
   } else {
-    for (int i = 0; i < cloud.size(); ++i) count_bead(i);
+    for_each_on_bead(cloud, 0, cloud.size(), plates, line, count_bead);
   }
 
   // A point in front of the planes by two heights, seen along the seam.

@@ -20,21 +20,28 @@ constexpr double kInfinity = std::numeric_limits<double>::infinity();
 struct Sight {
   int count = 0;
   double r = 0, t = 0, rr = 0, rt = 0;  // sums of distance from and place along the line
-  std::vector<double> away;             // the distances; mm
-  double nearest = kInfinity;           // of them
+  double nearest = kInfinity;           // of the distances; mm
 };
 
-std::vector<Sight> sights_of(const ScanCloud& cloud, const JointPlate& plate,
+// What all stripes show of one plate.
+struct Sights {
+  std::vector<Sight> stripes;
+  std::vector<double> away;  // the distances, one stripe's behind the other's; mm
+};
+
+Sights sights_of(const ScanCloud& cloud, const JointPlate& plate,
                              const JointPlate& other, const Line& line, double tolerance) {
   const Eigen::Vector3d away = away_from_seam(plate, other);
-  std::vector<Sight> sights(cloud.stripes.size());
+  Sights sights;
+  sights.stripes.resize(cloud.stripes.size());
+  sights.away.reserve(plate.points.size());
   for (const int i : plate.points) {
     const double r = away.dot(cloud.points[i] - line.point);
     if (r <= tolerance || r > kSlantReach) continue;  // either plate's, or behind the other
     const double t = line.along(cloud.points[i]);
-    Sight& s = sights[cloud.origins[i].stripe];
+    sights.away.push_back(r);
+    Sight& s = sights.stripes[cloud.origins[i].stripe];
     ++s.count;
-    s.away.push_back(r);
     s.r += r, s.t += t, s.rr += r * r, s.rt += r * t;
     s.nearest = std::min(s.nearest, r);
   }
@@ -43,9 +50,9 @@ std::vector<Sight> sights_of(const ScanCloud& cloud, const JointPlate& plate,
 
 // A stripe lies on a plate in a straight line, t = crossing + slant * r, with one slant for the
 // whole scan.
-double slant_of(const std::vector<Sight>& sights) {
+double slant_of(const Sights& sights) {
   double rr = 0, rt = 0;
-  for (const Sight& s : sights) {
+  for (const Sight& s : sights.stripes) {
     if (s.count < 2) continue;
     rr += s.rr - s.r * s.r / s.count;
     rt += s.rt - s.r * s.t / s.count;
@@ -55,11 +62,15 @@ double slant_of(const std::vector<Sight>& sights) {
 
 // How far from the line a plate's nearest point can be where the stripe runs on to the line: points
 // nearer than the tolerance do not count, the others are a step apart, and one may be an outlier.
-double near_limit(std::vector<Sight>& sights, double tolerance, double contact) {
+double near_limit(Sights& sights, double tolerance, double contact) {
   std::vector<double> steps;
-  for (Sight& s : sights) {
-    std::sort(s.away.begin(), s.away.end());
-    for (std::size_t i = 1; i < s.away.size(); ++i) steps.push_back(s.away[i] - s.away[i - 1]);
+  steps.reserve(sights.away.size());
+  auto first = sights.away.begin();
+  for (const Sight& s : sights.stripes) {
+    const auto last = first + s.count;
+    std::sort(first, last);
+    for (; first != last; ++first)
+      if (first + 1 != last) steps.push_back(*(first + 1) - *first);
   }
   if (steps.empty()) return contact;
   const auto high = steps.begin() + static_cast<std::ptrdiff_t>(9 * (steps.size() - 1) / 10);
@@ -69,15 +80,15 @@ double near_limit(std::vector<Sight>& sights, double tolerance, double contact) 
 
 using Places = std::vector<std::optional<double>>;
 
-Places seen_crossings(const std::array<std::vector<Sight>, 2>& sights,
+Places seen_crossings(const std::array<Sights, 2>& sights,
                       const std::array<JointPlate, 2>& plates) {
-  Places places(sights[0].size());
+  Places places(sights[0].stripes.size());
   const std::array<double, 2> slants = {slant_of(sights[0]), slant_of(sights[1])};
   for (std::size_t k = 0; k < places.size(); ++k) {
     double sum = 0;
     int showing = 0;
     for (int j = 0; j < 2; ++j)
-      if (const Sight& s = sights[j][k]; s.nearest <= plates[j].contact)
+      if (const Sight& s = sights[j].stripes[k]; s.nearest <= plates[j].contact)
         sum += (s.t - slants[j] * s.r) / s.count, ++showing;
     if (showing > 0) places[k] = sum / showing;
   }
@@ -127,7 +138,7 @@ void mark_unknown(const ScanCloud& cloud, std::vector<Station>& stations) {
 
 Stations stripe_stations(const ScanCloud& cloud, const std::array<JointPlate, 2>& plates,
                          const Line& line, const CourseSearch& search) {
-  std::array<std::vector<Sight>, 2> sights = {
+  std::array<Sights, 2> sights = {
       sights_of(cloud, plates[0], plates[1], line, search.tolerance),
       sights_of(cloud, plates[1], plates[0], line, search.tolerance)};
   const Places places = carried_crossings(cloud, seen_crossings(sights, plates), line);
@@ -140,7 +151,7 @@ Stations stripe_stations(const ScanCloud& cloud, const std::array<JointPlate, 2>
   stations.resize(cloud.stripes.size());
   for (int k = 0; k < static_cast<int>(stations.size()); ++k)
     stations[k] = {guessed_crossing(places, k, search.spacing),
-                   {sights[0][k].nearest, sights[1][k].nearest},
+                   {sights[0].stripes[k].nearest, sights[1].stripes[k].nearest},
                    true,
                    k};
   mark_unknown(cloud, stations);

@@ -39,6 +39,7 @@ void thin(const ScanCloud& scan, ThinnedCloud& thinned) {
 std::vector<int> in_whole(const ScanCloud& scan, const ThinnedCloud& thinned,
                           const std::vector<int>& points, const Plane& plane, double tolerance_mm) {
   std::vector<int> whole;
+  whole.reserve(scan.points.size() / 2);
   int taken = -1;  // the last one that was looked at
   for (const int point : points) {
     const int own = thinned.places[point];
