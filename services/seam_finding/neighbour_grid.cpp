@@ -10,7 +10,7 @@ namespace {
 constexpr int kBias = 1 << 20;  // cells on either side of the origin; 21 bits an axis
 constexpr std::size_t kCrowd = 256;
 constexpr std::size_t kFirstSlots = 256;
-constexpr double kBoxCells = 64;  // of a box for each that holds points
+constexpr double kBoxCells = 16;  // of a box for each point
 
 // std::floor is a call of a library where the processor is not known to have an instruction for it.
 int floor_within_range(double value) {
@@ -41,15 +41,53 @@ NeighbourGrid::Cell NeighbourGrid::cell_of(const Eigen::Vector3d& point) const {
   return cell;
 }
 
-// Points mostly come in the order of a stripe, many of one cell in a row: a cell is looked up once
-// for a run of them. Sorted are the cells alone, the points then counted into them.
 NeighbourGrid::NeighbourGrid(const std::vector<Eigen::Vector3d>& points, double cell_mm)
     : points_(points), cell_mm_(cell_mm), order_(points.size()) {
+  if (points.empty()) {
+    begins_.assign(1, 0);
+    return;
+  }
+  std::vector<Cell> cells;
+  cells.reserve(points.size());
+  for (const Eigen::Vector3d& point : points) cells.push_back(cell_of(point));
+  Cell high = low_ = cells.front();
+  for (const Cell& cell : cells) low_ = low_.cwiseMin(cell), high = high.cwiseMax(cell);
+  size_ = high - low_ + Cell::Ones();
   std::vector<int> cell_of_point(points.size());
+  if (size_.cast<double>().prod() <= kBoxCells * static_cast<double>(points.size() + 64))
+    sort_cells_in_box(cells, cell_of_point);
+  else
+    sort_cells(cells, cell_of_point);
+  std::vector<int> next = begins_;
+  for (std::size_t i = 0; i < points.size(); ++i)
+    order_[next[cell_of_point[i]]++] = static_cast<int>(i);
+}
+
+void NeighbourGrid::sort_cells_in_box(const std::vector<Cell>& cells,
+                                      std::vector<int>& cell_of_point) {
+  box_.assign(static_cast<std::size_t>(size_.prod()), 0);
+  for (std::size_t i = 0; i < cells.size(); ++i) ++box_[cell_of_point[i] = place_in_box(cells[i])];
+  int place = 0;
+  for (int x = 0; x < size_.x(); ++x)
+    for (int y = 0; y < size_.y(); ++y)
+      for (int z = 0; z < size_.z(); ++z, ++place) {
+        const int count = box_[place];
+        box_[place] = count > 0 ? cell_count() : -1;
+        if (count == 0) continue;
+        keys_.push_back(key_of(low_ + Cell(x, y, z)));
+        begins_.push_back((begins_.empty() ? 0 : begins_.back()) + count);
+      }
+  begins_.insert(begins_.begin(), 0);
+  for (int& cell : cell_of_point) cell = box_[cell];
+}
+
+// Points mostly come in the order of a stripe, many of one cell in a row: a cell is looked up once
+// for a run of them. Sorted are the cells alone, the points then counted into them.
+void NeighbourGrid::sort_cells(const std::vector<Cell>& cells, std::vector<int>& cell_of_point) {
   slots_.assign(kFirstSlots, -1);
   std::vector<int> counts;
-  for (std::size_t i = 0; i < points.size(); ++i) {
-    const std::uint64_t key = key_of(cell_of(points[i]));
+  for (std::size_t i = 0; i < cells.size(); ++i) {
+    const std::uint64_t key = key_of(cells[i]);
     if (i > 0 && key == keys_[cell_of_point[i - 1]]) {
       ++counts[cell_of_point[i] = cell_of_point[i - 1]];
       continue;
@@ -75,10 +113,7 @@ NeighbourGrid::NeighbourGrid(const std::vector<Eigen::Vector3d>& points, double 
   }
   keys_ = std::move(keys);
   grow_slots(slots_.size());
-  fill_box();
-  std::vector<int> next = begins_;
-  for (std::size_t i = 0; i < points.size(); ++i)
-    order_[next[rank[cell_of_point[i]]]++] = static_cast<int>(i);
+  for (int& cell : cell_of_point) cell = rank[cell];
 }
 
 void NeighbourGrid::grow_slots(std::size_t size) {
@@ -90,21 +125,6 @@ std::size_t NeighbourGrid::slot_of(std::uint64_t key) const {
   std::size_t slot = hash(key) & (slots_.size() - 1);
   while (slots_[slot] >= 0 && keys_[slots_[slot]] != key) slot = (slot + 1) & (slots_.size() - 1);
   return slot;
-}
-
-void NeighbourGrid::fill_box() {
-  if (keys_.empty()) return;
-  Cell high = low_ = cell(0);
-  for (int i = 1; i < cell_count(); ++i)
-    low_ = low_.cwiseMin(cell(i)), high = high.cwiseMax(cell(i));
-  size_ = high - low_ + Cell::Ones();
-  if (size_.cast<double>().prod() > kBoxCells * static_cast<double>(keys_.size()) + kBoxCells)
-    return;
-  box_.assign(static_cast<std::size_t>(size_.prod()), -1);
-  for (int i = 0; i < cell_count(); ++i) {
-    const Cell place = cell(i) - low_;
-    box_[(place.x() * size_.y() + place.y()) * size_.z() + place.z()] = i;
-  }
 }
 
 int NeighbourGrid::index_of(const Cell& cell) const {

@@ -71,16 +71,21 @@ class NeighbourGrid {
   static std::uint64_t key_of(const Cell& cell);
   std::size_t slot_of(std::uint64_t key) const;  // where it is, or would be
   void grow_slots(std::size_t size);
-  void fill_box();
+  // Both set keys_ and begins_ from the points' cells, and each point's cell as an index.
+  void sort_cells_in_box(const std::vector<Cell>& cells, std::vector<int>& cell_of_point);
+  void sort_cells(const std::vector<Cell>& cells, std::vector<int>& cell_of_point);
+  int place_in_box(const Cell& cell) const {
+    const Cell place = cell - low_;
+    return (place.x() * size_.y() + place.y()) * size_.z() + place.z();
+  }
   const std::vector<Eigen::Vector3d>& points_;
   double cell_mm_;
   std::vector<int> order_;           // point indices, cell by cell
   std::vector<std::uint64_t> keys_;  // of the occupied cells, rising
   std::vector<int> begins_;          // of each cell in order_, and the end
-  std::vector<int> slots_;           // hash table of indices into keys_, -1 for none
   // Where their box is not much larger than what it holds: the index of every cell of it, -1 for
-  // none.
-  std::vector<int> box_;
+  // none. Else empty, and a hash table of indices into keys_, -1 for none.
+  std::vector<int> box_, slots_;
   Cell low_ = Cell::Zero(), size_ = Cell::Zero();
 };
 
