@@ -17,19 +17,21 @@ bool same_segment(const ScanCloud& scan, int a, int b) {
 
 void thin(const ScanCloud& scan, ThinnedCloud& thinned) {
   ScanCloud& few = thinned.cloud;
+  const Eigen::Vector3d* points = scan.points.data();
+  const PointOrigin* origins = scan.origins.data();
   for (std::size_t k = few.stripes.size(); k < scan.stripes.size(); ++k) {
     const ScanStripe& stripe = scan.stripes[k];
     const int end = stripe.first + stripe.count;
     bool first = true, last = false;        // of a segment
     const Eigen::Vector3d* kept = nullptr;  // the last one of it
     for (int i = stripe.first; i < end; ++i, first = last) {
-      last = i + 1 == end || scan.origins[i].segment != scan.origins[i + 1].segment;
-      if (!first && !last && !scan.origins[i].segment_end &&
-          (scan.points[i] - *kept).squaredNorm() < kStep * kStep)
+      last = i + 1 == end || origins[i].segment != origins[i + 1].segment;
+      if (!first && !last && !origins[i].segment_end &&
+          (points[i] - *kept).squaredNorm() < kStep * kStep)
         continue;
-      kept = &scan.points[i];
+      kept = &points[i];
       few.points.push_back(*kept);
-      few.origins.push_back(scan.origins[i]);
+      few.origins.push_back(origins[i]);
       thinned.places.push_back(i);
     }
     end_stripe(few, stripe.seen, stripe.camera_centre, stripe.tool_position);
