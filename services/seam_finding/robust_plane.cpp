@@ -7,6 +7,7 @@
 #include <cmath>
 #include <cstdint>
 #include <cstring>
+#include <numeric>
 
 namespace arcstart {
 namespace {
@@ -161,26 +162,34 @@ double spread_about(const Heights& points) {
   return kMedianToDeviation * *middle;
 }
 
-// The strip along the line that each point lies in: strips of about as many points, counted from
-// the line outward.
+// The strip along the line that each point lies in: strips of equal numbers, counted from the line
+// outward. Points are put into bins by their distance; in order are those bins alone in which one
+// strip borders on the next.
 std::vector<std::uint8_t> strips_of(const Heights& points) {
   float low = points.distance(0), high = low;
   for (std::size_t i = 0; i < points.size(); ++i)
     low = std::min(low, points.distance(i)), high = std::max(high, points.distance(i));
   const float bins_each_mm = (kBins - 1) / std::max(high - low, 1e-6f);
   std::vector<std::uint16_t> bins(points.size());
-  std::array<std::size_t, kBins> counts{};
-  for (std::size_t i = 0; i < points.size(); ++i)
-    ++counts[bins[i] = static_cast<std::uint16_t>((points.distance(i) - low) * bins_each_mm)];
-  std::array<std::uint8_t, kBins> strip_of_bin{};
-  std::size_t before = 0;
-  for (std::size_t k = 0; k < kBins; ++k) {
-    strip_of_bin[k] =
-        static_cast<std::uint8_t>((before + counts[k] / 2) * kStrips / (points.size() + 1));
-    before += counts[k];
+  std::array<int, kBins + 1> begins{};  // of each bin's points in their order
+  for (std::size_t i = 0; i < points.size(); ++i) {
+    bins[i] = static_cast<std::uint16_t>((points.distance(i) - low) * bins_each_mm);
+    ++begins[bins[i] + 1u];
   }
+  std::partial_sum(begins.begin(), begins.end(), begins.begin());
+  std::array<int, kBins + 1> next = begins;
+  std::vector<int> order(points.size());
+  for (std::size_t i = 0; i < points.size(); ++i) order[next[bins[i]]++] = static_cast<int>(i);
   std::vector<std::uint8_t> strips(points.size());
-  for (std::size_t i = 0; i < points.size(); ++i) strips[i] = strip_of_bin[bins[i]];
+  for (std::size_t k = 0; k < kStrips; ++k) {
+    const std::size_t first = order.size() * k / kStrips, last = order.size() * (k + 1) / kStrips;
+    if (last < order.size()) {
+      const auto bin = bins[order[last]];
+      std::stable_sort(order.begin() + begins[bin], order.begin() + begins[bin + 1u],
+                       [&](int a, int b) { return points.distance(a) < points.distance(b); });
+    }
+    for (std::size_t i = first; i < last; ++i) strips[order[i]] = static_cast<std::uint8_t>(k);
+  }
   return strips;
 }
 
