@@ -29,8 +29,11 @@ SeenPoint seen_near(const CollectedScan& scan, const Eigen::Vector3d& place) {
   for (std::size_t k = 0; k < scan.profiles.size(); ++k) {
     const profile_t& profile = scan.profiles[k];
     for (int i = 0; i < profile.count; ++i) {
-      const double distance =
-          (Eigen::Vector3d(profile.x[i], profile.y[i], profile.z[i]) - place).squaredNorm();
+      // Component by component: most of a scan's points end with the first.
+      const double x = profile.x[i] - place.x();
+      if (nearest >= 0 && x * x >= nearest) continue;
+      const double y = profile.y[i] - place.y(), z = profile.z[i] - place.z();
+      const double distance = x * x + y * y + z * z;
       if (nearest >= 0 && distance >= nearest) continue;
       nearest = distance;
       nearest_profile = k;
