@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <numeric>
 
-#include "services/extraction/instruction_sets.hpp"
+#include "common/instruction_sets.hpp"
 
 namespace arcstart {
 namespace {

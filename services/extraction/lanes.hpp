@@ -5,7 +5,7 @@
 #include <cstdint>
 #include <cstring>
 
-#include "services/extraction/instruction_sets.hpp"
+#include "common/instruction_sets.hpp"
 
 #if defined(__x86_64__) && defined(__GNUC__)
 #include <immintrin.h>

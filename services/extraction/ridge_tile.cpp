@@ -6,7 +6,7 @@
 #include <cstdint>
 #include <cstring>
 
-#include "services/extraction/instruction_sets.hpp"
+#include "common/instruction_sets.hpp"
 #include "services/extraction/lanes.hpp"
 #include "services/extraction/ridge_extrema.hpp"
 

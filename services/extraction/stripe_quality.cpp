@@ -6,7 +6,7 @@
 #include <numbers>
 #include <vector>
 
-#include "services/extraction/instruction_sets.hpp"
+#include "common/instruction_sets.hpp"
 
 namespace arcstart {
 namespace {
