@@ -14,7 +14,7 @@ namespace {
 constexpr int kLeastPoints = 20;
 constexpr std::size_t kSoughtAgain =
     4096;                              // of more points the outliers are sought in one pass alone
-constexpr std::size_t kEnough = 2048;  // points of a plate; of more, means over so many neighbours
+constexpr std::size_t kEnough = 4096;  // points of a plate; of more, means over so many neighbours
                                        // of a stripe that it is as few. Points of no stripe have
                                        // no neighbours
 // The stripe's centre is drawn aside so near the other plate; mm.

@@ -6,8 +6,9 @@
 #include <bitset>
 #include <cmath>
 #include <cstdint>
-#include <cstring>
 #include <numeric>
+
+#include "services/seam_finding/tukey_sums.hpp"
 
 namespace arcstart {
 namespace {
@@ -16,7 +17,7 @@ constexpr std::size_t kLeastPoints = 20;
 constexpr double kTukey = 4.685;               // standard deviations
 constexpr double kMedianToDeviation = 1.4826;  // of normal noise
 constexpr std::size_t kStrips = 16;
-constexpr std::size_t kBins = 1024;  // of the points' distances from the line
+constexpr std::size_t kBins = 1024;   // of the points' distances from the line
 constexpr double kStripNoise = 0.25;  // of a strip's mean height, over the points' noise
 constexpr double kStripDeviations = 2.5;
 constexpr double kRoughness = 1.5;  // a plate's spread over the cloud's noise that is no roughness
@@ -25,16 +26,6 @@ constexpr double kLeastSpread = 3;  // of a plate's points within their plane, o
 // points uncertain by a hundred times as much. mm, and over kReach.
 constexpr double kSettled = 1e-5;
 constexpr double kReach = 60;  // mm
-constexpr std::size_t kLanes = 4;
-constexpr std::size_t kBlock = 1024;  // points summed in floats before doubles take over
-
-typedef float Lanes4 __attribute__((vector_size(4 * kLanes)));
-
-Lanes4 load4(const float* from) {
-  Lanes4 lanes;
-  std::memcpy(&lanes, from, sizeof lanes);
-  return lanes;
-}
 
 // Points as heights above a first plane, at places in it: there all numbers are small or need not
 // be exact, so that floats do, side by side. The line lies in that plane.
@@ -45,7 +36,7 @@ class Heights {
     along_ = (line.direction - line.direction.dot(normal_) * normal_).normalized();
     across_ = normal_.cross(along_);
     origin_ = line.point - first.signed_distance(line.point) * normal_;
-    const std::size_t padded = (points.size() + kLanes - 1) / kLanes * kLanes;
+    const std::size_t padded = whole_registers(points.size());
     a_.assign(padded, 0), b_.assign(padded, 0), distance_.assign(padded, 0);
     h_.assign(padded, kFarOff);
     count_ = points.size();
@@ -83,42 +74,11 @@ class Heights {
 
  private:
   static constexpr float kFarOff = 1e9f;  // mm: no limit reaches so far
-  struct Sums {                           // weighted; r: residuals
-    double w = 0, a = 0, b = 0, aa = 0, ab = 0, bb = 0, r = 0, ra = 0, rb = 0;
-  };
-  Sums weighted_sums(const Model& model, double reach) const;
 
   Eigen::Vector3d normal_, along_, across_, origin_;
   std::size_t count_ = 0;
   std::vector<float> a_, b_, h_, distance_;  // filled up to whole registers
 };
-
-Heights::Sums Heights::weighted_sums(const Model& model, double reach) const {
-  Sums sums;
-  const auto offset = static_cast<float>(model.offset), along = static_cast<float>(model.along),
-             across = static_cast<float>(model.across), share = static_cast<float>(1 / reach);
-  for (std::size_t first = 0; first < h_.size(); first += kBlock) {
-    Lanes4 w{}, a{}, b{}, aa{}, ab{}, bb{}, r{}, ra{}, rb{};
-    const std::size_t last = std::min(first + kBlock, h_.size());
-    for (std::size_t i = first; i < last; i += kLanes) {
-      const Lanes4 pa = load4(&a_[i]), pb = load4(&b_[i]);
-      const Lanes4 off = load4(&h_[i]) - offset - along * pa - across * pb;
-      const Lanes4 rest = 1 - (off * share) * (off * share);
-      const Lanes4 inside = rest > 0 ? rest : Lanes4{};
-      const Lanes4 weight = inside * inside;
-      const Lanes4 wa = weight * pa, wb = weight * pb, wr = weight * off;
-      w += weight, a += wa, b += wb, r += wr;
-      aa += wa * pa, ab += wa * pb, bb += wb * pb, ra += wr * pa, rb += wr * pb;
-    }
-    const auto total = [](const Lanes4& v) {
-      return static_cast<double>(v[0]) + v[1] + static_cast<double>(v[2]) + v[3];
-    };
-    sums.w += total(w), sums.a += total(a), sums.b += total(b), sums.r += total(r);
-    sums.aa += total(aa), sums.ab += total(ab), sums.bb += total(bb);
-    sums.ra += total(ra), sums.rb += total(rb);
-  }
-  return sums;
-}
 
 // The limit narrows from pass to pass, so that what agrees within the noise prevails over what was
 // drawn aside.
@@ -127,7 +87,8 @@ Heights::Model Heights::narrowed(Model model, double noise,
   double settled_at = 0;
   for (const double limit : limits) {
     if (limit == settled_at) continue;
-    const Sums s = weighted_sums(model, limit * kTukey * noise);
+    const TukeySums s = tukey_sums({a_.data(), b_.data(), h_.data(), h_.size()}, model.offset,
+                                   model.along, model.across, limit * kTukey * noise);
     if (s.w < static_cast<double>(kLeastPoints / 2)) return model;
     // Of the smaller spread within the plane.
     const double ma = s.a / s.w, mb = s.b / s.w;
@@ -243,7 +204,8 @@ Plane robust_plane(const std::vector<Eigen::Vector3d>& points, const Line& line,
   if (points.size() < kLeastPoints) return plane;
   const Heights heights(points, line, plane);
   const double allowed = std::max(noise, spread_about(heights) / kRoughness);
-  Heights::Model model = heights.narrowed({}, allowed, {4.0, 4.0, 2.0, 2.0, 1.0, 1.0});
+  Heights::Model model =
+      heights.narrowed({}, allowed, {4.0, 4.0, 2.0, 2.0, 1.0, 1.0, 0.6, 0.6, 0.6, 0.6});
   const auto strip_of = strips_of(heights);
   model = heights.chosen(strip_of, in_line(heights, strip_of, model, allowed))
               .narrowed(model, allowed, {1.0, 1.0, 0.6, 0.6, 0.6, 0.6});

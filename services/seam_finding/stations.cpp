@@ -29,8 +29,8 @@ struct Sights {
   std::vector<double> away;  // the distances, one stripe's behind the other's; mm
 };
 
-Sights sights_of(const ScanCloud& cloud, const JointPlate& plate,
-                             const JointPlate& other, const Line& line, double tolerance) {
+Sights sights_of(const ScanCloud& cloud, const JointPlate& plate, const JointPlate& other,
+                 const Line& line, double tolerance) {
   const Eigen::Vector3d away = away_from_seam(plate, other);
   Sights sights;
   sights.stripes.resize(cloud.stripes.size());
@@ -138,9 +138,8 @@ void mark_unknown(const ScanCloud& cloud, std::vector<Station>& stations) {
 
 Stations stripe_stations(const ScanCloud& cloud, const std::array<JointPlate, 2>& plates,
                          const Line& line, const CourseSearch& search) {
-  std::array<Sights, 2> sights = {
-      sights_of(cloud, plates[0], plates[1], line, search.tolerance),
-      sights_of(cloud, plates[1], plates[0], line, search.tolerance)};
+  std::array<Sights, 2> sights = {sights_of(cloud, plates[0], plates[1], line, search.tolerance),
+                                  sights_of(cloud, plates[1], plates[0], line, search.tolerance)};
   const Places places = carried_crossings(cloud, seen_crossings(sights, plates), line);
   Stations found;
   for (int j = 0; j < 2; ++j) {
