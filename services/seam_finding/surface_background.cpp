@@ -111,22 +111,21 @@ bool SurfaceBackground::contains(const Eigen::Vector3d& point) const {
 // from the common one.
 void SurfaceBackground::classify(std::span<const Eigen::Vector3d> points,
                                  std::vector<char>& inside) const {
-  const double from = kWithinCell, to = grid_.cell_size() - kWithinCell;
+  const double half = grid_.cell_size() / 2;
   struct Place {
-    Eigen::Vector3d corner = Eigen::Vector3d::Constant(INFINITY);  // of no cell yet
+    Eigen::Vector3d centre = Eigen::Vector3d::Constant(INFINITY);  // of no cell yet
     Surroundings around;
     std::vector<int> cells;
   };
   std::array<Place, 2> places;
   Place *here = &places[0], *before = &places[1];
-  const auto within = [&](double from_corner) { return from_corner > from && from_corner < to; };
   const auto is_here = [&](const Eigen::Vector3d& point) {
-    return within(point.x() - here->corner.x()) && within(point.y() - here->corner.y()) &&
-           within(point.z() - here->corner.z());
+    const Eigen::Vector3d off = (point - here->centre).cwiseAbs();
+    return std::max(std::max(off.x(), off.y()), off.z()) < half - kWithinCell;
   };
   const auto go_to = [&](const Eigen::Vector3d& point) {
     const NeighbourGrid::Cell cell = grid_.cell_of(point);
-    here->corner = cell.cast<double>() * grid_.cell_size();
+    here->centre = cell.cast<double>() * grid_.cell_size() + Eigen::Vector3d::Constant(half);
     if (const int index = grid_.index_of(cell); index >= 0) {
       here->around = surroundings_[static_cast<std::size_t>(index)];
       return;
