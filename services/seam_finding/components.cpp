@@ -5,13 +5,11 @@
 
 namespace arcstart {
 
-Pieces::Pieces(const std::vector<Eigen::Vector3d>& points, double cell_mm) {
-  const NeighbourGrid grid(points, cell_mm);
-  adjacency_ = grid.adjacency();
-  cells_ = grid.cells_of_points();
-  counts_.assign(static_cast<std::size_t>(grid.cell_count()), 0);
-  pieces_.resize(counts_.size());
-}
+Pieces::Pieces(const NeighbourGrid& grid)
+    : adjacency_(grid.adjacency()),
+      cells_(grid.cells_of_points()),
+      counts_(static_cast<std::size_t>(grid.cell_count())),
+      pieces_(counts_.size()) {}
 
 void Pieces::join(std::span<const int> chosen) {
   held_.clear();
@@ -56,7 +54,7 @@ void Pieces::keep_largest(std::vector<int>& chosen) {
 std::vector<int> largest_component(const std::vector<Eigen::Vector3d>& points, double cell_mm) {
   std::vector<int> chosen(points.size());
   std::iota(chosen.begin(), chosen.end(), 0);
-  Pieces(points, cell_mm).keep_largest(chosen);
+  Pieces(NeighbourGrid(points, cell_mm)).keep_largest(chosen);
   return chosen;
 }
 

@@ -14,7 +14,7 @@ namespace arcstart {
 // never part them and gaps over two (three across corners) always do.
 class Pieces {
  public:
-  Pieces(const std::vector<Eigen::Vector3d>& points, double cell_mm);
+  explicit Pieces(const NeighbourGrid& grid);  // of the cloud; not needed any more
 
   // How many of the chosen points, positions in the cloud, the largest piece holds.
   int largest_size(std::span<const int> chosen);

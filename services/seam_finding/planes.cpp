@@ -1,9 +1,11 @@
 #include "services/seam_finding/planes.hpp"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <optional>
 #include <random>
+#include <utility>
 
 #include "services/seam_finding/components.hpp"
 #include "services/seam_finding/neighbour_grid.hpp"
@@ -64,7 +66,7 @@ class Jury {
       : search_(search),
         points_(std::move(points)),
         side_by_side_(points_),
-        pieces_(points_, connection) {}
+        pieces_(NeighbourGrid(points_, connection)) {}
 
   // Points of the largest connected piece on the plane; 0 where it is plain early that they are not
   // more than `most`.
@@ -129,7 +131,7 @@ std::optional<Plane> best_hypothesis(const std::vector<Eigen::Vector3d>& points,
 
 // The points among which faces are sought, and those of them that are in none yet.
 struct Sought {
-  std::vector<Eigen::Vector3d> points;
+  const std::vector<Eigen::Vector3d>& points;
   std::vector<char> segment_ends;  // of each: it is not fitted
   Pieces pieces;
   PlanePoints left;
@@ -139,10 +141,12 @@ struct Sought {
 // told by their places among those sought.
 Face grow(Sought& sought, Plane plane, const PlaneSearch& search) {
   Face face;
-  std::vector<int> inside;
+  std::vector<int> near, before, inside;
   for (int pass = 0; pass < kRefits; ++pass) {
     face.plane = plane;
-    sought.left.find_near(plane, search.tolerance, face.points);
+    sought.left.find_near(plane, search.tolerance, near);
+    if (pass > 0 && near == before) break;  // the same points have the same plane
+    before = face.points = near;
     sought.pieces.keep_largest(face.points);
     PlaneSums sums(face.points.empty() ? Eigen::Vector3d::Zero()
                                        : sought.points[face.points.front()]);
@@ -155,9 +159,7 @@ Face grow(Sought& sought, Plane plane, const PlaneSearch& search) {
     const auto fit = sums.fit();
     face.rms = fit.rms;
     if (!(fit.spread[0] > 1e-6) || (search.accept && !search.accept(fit.plane))) break;
-    const bool settled = fit.plane.normal == plane.normal && fit.plane.offset == plane.offset;
     plane = fit.plane;
-    if (settled) break;
   }
   return face;
 }
@@ -171,16 +173,36 @@ std::optional<Plane> drawn_plane(const Sought& sought, const PlaneSearch& search
   return best_hypothesis(inside, search, dice);
 }
 
+// Squared distances from a point to the four nearest others that are chosen; infinite for none. Of
+// a crowded cell 256 points are looked at.
+std::array<double, 4> nearest_four(const NeighbourGrid& grid, int point,
+                                   const std::vector<char>& chosen) {
+  constexpr std::size_t kCrowd = 256;
+  std::array<double, 4> nearest;
+  nearest.fill(INFINITY);
+  const Eigen::Vector3d& centre = grid.points()[static_cast<std::size_t>(point)];
+  grid.for_each_around(grid.cell_of(centre), [&](int cell) {
+    const auto inside = grid.points_in(cell);
+    for (std::size_t k = 0; k < inside.size(); k += 1 + inside.size() / kCrowd) {
+      const auto other = static_cast<std::size_t>(inside[k]);
+      if (!chosen[other] || inside[k] == point) continue;
+      double squared = (grid.points()[other] - centre).squaredNorm();
+      for (double& one : nearest)
+        if (squared < one) std::swap(squared, one);
+    }
+  });
+  return nearest;
+}
+
 // Half of the points of a face have four neighbours nearer than this: on a grid two on each of its
-// two lines.
-double spacing_of(const ScanCloud& cloud, const Face& face, double connection) {
-  std::vector<Eigen::Vector3d> points;
-  for (const int i : face.points) points.push_back(cloud.points[i]);
-  const NeighbourGrid grid(points, connection);
-  std::vector<double> distances, fourth;
+// two lines. points: their places in the grid, whose cells are as wide as points hang together.
+double spacing_of(const NeighbourGrid& grid, const std::vector<int>& points) {
+  std::vector<char> chosen(grid.points().size());
+  for (const int i : points) chosen[i] = true;
+  std::vector<double> fourth;
   for (std::size_t i = 0; i < points.size(); i += 1 + points.size() / 32) {
-    grid.nearest_distances(static_cast<int>(i), 4, distances);
-    fourth.push_back(distances.size() == 4 ? distances.back() : connection);
+    const double squared = nearest_four(grid, points[i], chosen).back();
+    fourth.push_back(std::isinf(squared) ? grid.cell_size() : std::sqrt(squared));
   }
   const auto middle = fourth.begin() + static_cast<std::ptrdiff_t>(fourth.size() / 2);
   std::nth_element(fourth.begin(), middle, fourth.end());
@@ -198,10 +220,8 @@ std::vector<Face> find_faces(const ScanCloud& cloud, std::vector<int> indices,
     points.push_back(cloud.points[i]);
     segment_ends.push_back(cloud.origins[i].segment_end);
   }
-  Pieces pieces(points, search.connection);
-  PlanePoints side_by_side(points);
-  Sought sought{std::move(points), std::move(segment_ends), std::move(pieces),
-                std::move(side_by_side)};
+  const NeighbourGrid grid(points, search.connection);
+  Sought sought{points, std::move(segment_ends), Pieces(grid), PlanePoints(points)};
   SuggestedPlanes suggested(planes_of_stripes(cloud, indices, search), sought.points, sought.pieces,
                             search);
   std::vector<Face> faces;
@@ -218,8 +238,8 @@ std::vector<Face> find_faces(const ScanCloud& cloud, std::vector<int> indices,
     }
     sought.left.remove(face.points);
     suggested.remove(face.points);
+    face.spacing = spacing_of(grid, face.points);
     for (int& i : face.points) i = indices[i];
-    face.spacing = spacing_of(cloud, face, search.connection);
     faces.push_back(std::move(face));
   }
   return faces;

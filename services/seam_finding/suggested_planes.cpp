@@ -28,7 +28,8 @@ SuggestedPlanes::SuggestedPlanes(std::vector<Plane> planes,
       left_(sample_),
       pieces_(step_ == 1
                   ? pieces
-                  : Pieces(sample_, search.connection * std::sqrt(static_cast<double>(step_)))),
+                  : Pieces(NeighbourGrid(
+                        sample_, search.connection * std::sqrt(static_cast<double>(step_))))),
       least_(std::max(2, search.least_points / static_cast<int>(step_))) {
   for (std::size_t i = 0; i < planes_.size(); ++i)
     offer(left_.count_near(planes_[i], search.tolerance, 0, left_.size()), i);
