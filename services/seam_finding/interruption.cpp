@@ -13,6 +13,8 @@ constexpr double kReach = 60;                  // what stands before a seam lies
 constexpr double kStandsBefore = 2;            // mm
 constexpr double kShadow = 1.2, kAside = 3;    // of a thing: so long for its height, and mm
 constexpr int kLeastSeen = 3;                  // points
+// Of so many stripes one that shows something past a plate shows a reflection.
+constexpr int kLoneReflection = 4;
 
 // Points of a stripe before both plates.
 int points_before(const ScanCloud& cloud, const std::array<JointPlate, 2>& plates, const Line& line,
@@ -47,15 +49,16 @@ int points_past(const ScanCloud& cloud, const std::array<JointPlate, 2>& plates,
 bool hidden_between(const ScanCloud& cloud, const std::array<JointPlate, 2>& plates,
                     const Line& line, const Stations& stations, int from, int to,
                     double tolerance) {
-  bool hidden = false;
+  int stripes = 0, hidden = 0, past = 0;
   for (int k = from + 1; k < to; ++k) {
     const Station& station = stations.list[k];
     if (station.stripe < 0) return false;
     if (!station.known || stations.both(station)) continue;
-    if (points_past(cloud, plates, line, stations, station, tolerance) >= kLeastSeen) return false;
-    hidden |= points_before(cloud, plates, line, cloud.stripes[station.stripe]) >= kLeastSeen;
+    ++stripes;
+    past += points_past(cloud, plates, line, stations, station, tolerance) >= kLeastSeen;
+    hidden += points_before(cloud, plates, line, cloud.stripes[station.stripe]) >= kLeastSeen;
   }
-  return hidden;
+  return hidden > 0 && (past == 0 || (past == 1 && stripes >= kLoneReflection));
 }
 
 bool stands_before(const ScanCloud& cloud, const std::array<JointPlate, 2>& plates,

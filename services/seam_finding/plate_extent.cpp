@@ -13,7 +13,8 @@ constexpr double kFarEdge = 3;    // and where the plate's far edge is passed; m
 constexpr double kFarthest = 55;  // from the seam another thing may touch the plate, as high; mm
 // A plate that is seen so far beyond the seam's end may be another thing as high; mm.
 constexpr double kGoesOn = 5;
-constexpr double kClose = 30;  // from the seam that other thing does not lie; mm
+constexpr double kLoneStripe = 12;  // so far before others something past it is seen; mm
+constexpr double kClose = 30;       // from the seam that other thing does not lie; mm
 constexpr int kLeastRun = 3;   // points in a row that chance does not put on a plate or behind it
 constexpr double kAskew = 5;   // light and sight meet the plane so far from each other, at most; mm
 constexpr double kStep = 1.5;  // along the seam between neighbours in a row; mm
@@ -68,13 +69,14 @@ bool on_plate_at(const ScanCloud& cloud, const PlateStripes& stripes, std::size_
 }
 
 // The first place beyond `from` where something is seen past the plate, or light falls past it, no
-// farther than `far` from the seam, in the stripes about `near`; mm outward.
-double first_past(const ScanCloud& cloud, const PlateStripes& stripes, double outward, double near,
-                  double from, double far, const EndSearch& search,
-                  const StripeCrossings& crossings) {
+// farther than `far` from the seam, of each of the stripes about `near`; mm outward, infinite where
+// nothing is.
+std::vector<double> first_past(const ScanCloud& cloud, const PlateStripes& stripes, double outward,
+                               double near, double from, double far, const EndSearch& search,
+                               const StripeCrossings& crossings) {
   const Line& line = stripes.line;
   const double slack = kBeam * search.noise;
-  MostOfRuns past(cloud), beside(cloud);
+  std::vector<double> places(cloud.stripes.size(), std::numeric_limits<double>::infinity());
   for (std::size_t k = 0; k < cloud.stripes.size(); ++k) {
     const ScanStripe& stripe = cloud.stripes[k];
     const int last = stripe.first + stripe.count - 1;
@@ -82,6 +84,7 @@ double first_past(const ScanCloud& cloud, const PlateStripes& stripes, double ou
         std::min(std::abs(line.along(cloud.points[stripe.first]) - near),
                  std::abs(line.along(cloud.points[last]) - near)) > kAround)
       continue;
+    MostOfRuns past(cloud), beside(cloud);
     for (int i = stripe.first; i <= last; ++i) {
       const auto through = seen_through(cloud, stripes.plate.plane, i, search.tolerance);
       if (!through) continue;
@@ -96,8 +99,9 @@ double first_past(const ScanCloud& cloud, const PlateStripes& stripes, double ou
                               kSquareCut * r + slack;
       if (crossing > from && !on_plate_at(cloud, stripes, k, r)) beside.add(i, -crossing);
     }
+    places[k] = -std::max(past.most(), beside.most());
   }
-  return -std::max(past.most(), beside.most());
+  return places;
 }
 
 }  // namespace
@@ -110,8 +114,12 @@ double seen_on_plate(const ScanCloud& cloud, const PlateStripes& stripes, SeamSi
   const double most = outermost(cloud, stripes, outward, search.noise,
                                 std::numeric_limits<double>::infinity(), reach);
   if (most < outward * near + kGoesOn) return most;
-  const double past = first_past(cloud, stripes, outward, near, outward * near,
-                                 std::min(kClose, reach - kFarEdge), search, crossings);
+  std::vector<double> places = first_past(cloud, stripes, outward, near, outward * near,
+                                          std::min(kClose, reach - kFarEdge), search, crossings);
+  std::sort(places.begin(), places.end());
+  double past = places[0];
+  // Behind a plate's end stripe after stripe is past it: one alone shows a reflection.
+  if (places.size() > 1 && std::min(most, places[1]) > past + kLoneStripe) past = places[1];
   if (past > most) return most;
   // Another thing lies in the plate's plane, and may do so from before the plate's end.
   return outermost(cloud, stripes, outward, search.noise, past, std::min(kClose, reach));
@@ -122,8 +130,10 @@ PlateExtent plate_extent(const ScanCloud& cloud, const PlateStripes& stripes, Se
   PlateExtent extent;
   if (!cloud.organised()) return extent;
   extent.on = seen_on_plate(cloud, stripes, side, near, search, crossings);
-  extent.past = first_past(cloud, stripes, side == SeamSide::kEnd ? 1 : -1, near, extent.on,
-                           usable_reach(stripes) - kFarEdge, search, crossings);
+  const std::vector<double> past =
+      first_past(cloud, stripes, side == SeamSide::kEnd ? 1 : -1, near, extent.on,
+                 usable_reach(stripes) - kFarEdge, search, crossings);
+  extent.past = *std::min_element(past.begin(), past.end());
   return extent;
 }
 

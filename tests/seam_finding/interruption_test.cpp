@@ -59,6 +59,28 @@ TEST_CASE("a seam goes on behind what hides it, however long, and ends where a p
   }
 }
 
+TEST_CASE("a reflection in one of the stripes behind what hides a seam does not end it") {
+  Bench bench = bench_of({box_at({0, -8, 10}, {120, 0, 50}), box_at({40, 3, 10}, {80, 20, 45})});
+  // Of the stripe that crosses the box in its middle the points on it lie deep under the base
+  // plate.
+  int spoilt = 0;
+  for (const ScanStripe& stripe : bench.cloud.stripes) {
+    std::vector<int> on_box;
+    for (int i = stripe.first; i < stripe.first + stripe.count; ++i)
+      if (const Eigen::Vector3d& p = bench.cloud.points[i]; p.z() > 12 && p.y() > 2.5)
+        on_box.push_back(i);
+    if (on_box.size() < 4 || bench.cloud.points[on_box[0]].x() < 55) continue;
+    for (const int i : on_box) bench.cloud.points[i] = {60, 6 + 0.5 * spoilt++, -5};
+    break;
+  }
+  REQUIRE(spoilt >= 4);
+  const Course course = find_course(bench.cloud, bench.plates, bench.line, {3.6, 0.6, 20});
+  CHECK(std::abs(course.begin) < 4);
+  CHECK(std::abs(course.end - 120) < 4);
+  const auto stripes = plate_stripes(bench.cloud, bench.plates, bench.line, 0.6, 0.05);
+  CHECK(seen_on_plate(bench.cloud, stripes[0], SeamSide::kEnd, 40, {0.6, 0.02, 0}) > 116);
+}
+
 TEST_CASE("a start that is hidden lies where both plates are seen to begin beyond what hides it") {
   // A box before the seam from its begin on, over which both plates are seen.
   const Bench bench =
