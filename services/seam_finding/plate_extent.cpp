@@ -13,6 +13,7 @@ constexpr double kFarEdge = 3;    // and where the plate's far edge is passed; m
 constexpr double kFarthest = 55;  // from the seam another thing may touch the plate, as high; mm
 // A plate that is seen so far beyond the seam's end may be another thing as high; mm.
 constexpr double kGoesOn = 5;
+constexpr double kLeastFall = 12;   // so wide is light that falls past a plate, and no spatter; mm
 constexpr double kLoneStripe = 12;  // so far before others something past it is seen; mm
 constexpr double kClose = 30;       // from the seam that other thing does not lie; mm
 constexpr int kLeastRun = 3;   // points in a row that chance does not put on a plate or behind it
@@ -85,6 +86,7 @@ std::vector<double> first_past(const ScanCloud& cloud, const PlateStripes& strip
                  std::abs(line.along(cloud.points[last]) - near)) > kAround)
       continue;
     MostOfRuns past(cloud), beside(cloud);
+    double fall_from = far, fall_to = 0;  // of the light that falls past, from the seam
     for (int i = stripe.first; i <= last; ++i) {
       const auto through = seen_through(cloud, stripes.plate.plane, i, search.tolerance);
       if (!through) continue;
@@ -97,9 +99,12 @@ std::vector<double> first_past(const ScanCloud& cloud, const PlateStripes& strip
       const double crossing = outward * *crossings.along[k] +
                               slant * std::max(0.0, slant > 0 ? r + kAskew : r - kAskew) +
                               kSquareCut * r + slack;
-      if (crossing > from && !on_plate_at(cloud, stripes, k, r)) beside.add(i, -crossing);
+      if (crossing <= from || on_plate_at(cloud, stripes, k, r)) continue;
+      beside.add(i, -crossing);
+      fall_from = std::min(fall_from, r), fall_to = std::max(fall_to, r);
     }
-    places[k] = -std::max(past.most(), beside.most());
+    const bool falls = fall_to - fall_from > kLeastFall;
+    places[k] = -(falls ? std::max(past.most(), beside.most()) : past.most());
   }
   return places;
 }
@@ -119,7 +124,7 @@ double seen_on_plate(const ScanCloud& cloud, const PlateStripes& stripes, SeamSi
   std::sort(places.begin(), places.end());
   double past = places[0];
   // Behind a plate's end stripe after stripe is past it: one alone shows a reflection.
-  if (places.size() > 1 && std::min(most, places[1]) > past + kLoneStripe) past = places[1];
+  if (places.size() > 1 && places[1] > past + kLoneStripe) past = places[1];
   if (past > most) return most;
   // Another thing lies in the plate's plane, and may do so from before the plate's end.
   return outermost(cloud, stripes, outward, search.noise, past, std::min(kClose, reach));
