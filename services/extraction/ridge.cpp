@@ -23,11 +23,14 @@ void RidgeDetector::detect(const GreyImage& image, const GaussianKernels& kernel
   detect_lines(image, kernels, least_curvature, least_curvature, margin(kernels), points);
 }
 
-void RidgeDetector::detect_lines(const GreyImage& image, const GaussianKernels& kernels,
+bool RidgeDetector::detect_lines(const GreyImage& image, const GaussianKernels& kernels,
                                  double least_curvature, double strong_curvature, int border,
-                                 std::vector<RidgePoint>& points) {
+                                 std::vector<RidgePoint>& points, std::size_t most_points) {
   active_share_ = 0;
-  if (std::min(image.width, image.height) <= 2 * kernels.half_width + 1) return points.clear();
+  if (std::min(image.width, image.height) <= 2 * kernels.half_width + 1) {
+    points.clear();
+    return true;
+  }
   rejection_.mark(image, kernels, strong_curvature, pool_);
   use(kernels, image.height);
 
@@ -37,19 +40,25 @@ void RidgeDetector::detect_lines(const GreyImage& image, const GaussianKernels& 
   for (int column = 0; column < columns; ++column)
     for (int row = 0; row < rows; ++row)
       if (rejection_.active(column, row)) want(column, row);
-  std::size_t looked_at = 0;
-  while (!wanted_.empty()) {
-    looked_at += wanted_.size();
-    look_at_wanted(image, kernels, static_cast<float>(least_curvature), border);
+  bool all_found = true;
+  while (all_found && !wanted_.empty()) {
+    all_found =
+        look_at_wanted(image, kernels, static_cast<float>(least_curvature), border, most_points);
     wanted_.clear();
-    if (least_curvature < strong_curvature)
+    if (all_found && least_curvature < strong_curvature)
       for (Strip& strip : strips_)
         for (; strip.followed < strip.found.size(); ++strip.followed)
           want_about(strip.found[strip.followed], kLineReach, image);
     std::sort(wanted_.begin(), wanted_.end());
   }
+  int looked_at = 0;
+  for (const Strip& strip : strips_) looked_at += strip.looked_at;
   active_share_ = static_cast<double>(looked_at) / static_cast<double>(is_wanted_.size());
-  collect_in_raster_order(image.height, points);
+  if (all_found)
+    collect_in_raster_order(image.height, points);
+  else
+    points.clear();
+  return all_found;
 }
 
 void RidgeDetector::detect_about(const GreyImage& image, const GaussianKernels& kernels,
@@ -62,11 +71,13 @@ void RidgeDetector::detect_about(const GreyImage& image, const GaussianKernels& 
   is_wanted_.assign(static_cast<std::size_t>(rejection_.columns()) * rejection_.rows(), 0);
   for (const RidgePoint& point : about) want_about(point, reach, image);
   std::sort(wanted_.begin(), wanted_.end());
-  look_at_wanted(image, kernels, static_cast<float>(least_curvature), border);
+  look_at_wanted(image, kernels, static_cast<float>(least_curvature), border,
+                 std::numeric_limits<std::size_t>::max());
   collect_in_raster_order(image.height, points);
 }
 
 void RidgeDetector::use(const GaussianKernels& kernels, int rows) {
+  found_ = 0;
   smooth_.assign(kernels.smooth.begin(), kernels.smooth.end());
   first_.assign(kernels.first.begin(), kernels.first.end());
   second_.assign(kernels.second.begin(), kernels.second.end());
@@ -75,6 +86,7 @@ void RidgeDetector::use(const GaussianKernels& kernels, int rows) {
     strip.found.clear();
     strip.of_row.assign(static_cast<std::size_t>(rows), 0);
     strip.followed = 0;
+    strip.looked_at = 0;
   }
 }
 
@@ -91,9 +103,10 @@ bool RidgeDetector::begins_tile(int i) const {
   return i == 0 || wanted_[i] != wanted_[i - 1] + 1 || wanted_[i] % rejection_.rows() == 0;
 }
 
-// The tiles are the same for any number of strips, and so is what rounding does in them.
-void RidgeDetector::look_at_wanted(const GreyImage& image, const GaussianKernels& kernels,
-                                   float least_curvature, int border) {
+// The tiles are the same for any number of strips, and so is what rounding does in them. So is the
+// answer: points found are never fewer for looking further, and only more than most_points stop it.
+bool RidgeDetector::look_at_wanted(const GreyImage& image, const GaussianKernels& kernels,
+                                   float least_curvature, int border, std::size_t most_points) {
   const auto count = static_cast<int>(wanted_.size());
   const auto next_tile = [&](int i) {
     while (i < count && !begins_tile(i)) ++i;
@@ -102,8 +115,9 @@ void RidgeDetector::look_at_wanted(const GreyImage& image, const GaussianKernels
   pool_.run([&](int index) {
     const StripRange share(count, index, pool_.size());
     Strip& strip = strips_[index];
-    for (int i = next_tile(share.begin), end = 0; i < share.end; i = end) {
+    for (int i = next_tile(share.begin), end = 0; i < share.end && found_ <= most_points; i = end) {
       end = next_tile(i + 1);
+      strip.looked_at += end - i;
       const int column = wanted_[i] / rejection_.rows(), row = wanted_[i] % rejection_.rows();
       const int first_row = std::max(row * BlockRejection::kHeight, border);
       const int end_row =
@@ -115,8 +129,10 @@ void RidgeDetector::look_at_wanted(const GreyImage& image, const GaussianKernels
                          end_row - first_row, border, image.width - 1 - border, strip.work.data()},
                         strip.found);
       for (std::size_t k = before; k < strip.found.size(); ++k) ++strip.of_row[strip.found[k].row];
+      found_ += strip.found.size() - before;
     }
   });
+  return found_ <= most_points;
 }
 
 void RidgeDetector::want_about(const RidgePoint& p, int reach, const GreyImage& image) {

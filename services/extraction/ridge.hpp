@@ -1,7 +1,10 @@
 // Steger's ridge points in an image (Eq. 2 and 3).
 #pragma once
 
+#include <atomic>
+#include <cstddef>
 #include <cstdint>
+#include <limits>
 #include <vector>
 
 #include "services/extraction/block_rejection.hpp"
@@ -39,9 +42,12 @@ class RidgeDetector {
 
   // Of those points all that hang together with one of at least strong_curvature, neighbours being
   // kLineReach apart at most, and some others: what hysteresis needs. Blocks without a strong point
-  // are looked at only where a line leads into them. border: instead of the margin; px.
-  void detect_lines(const GreyImage& image, const GaussianKernels& kernels, double least_curvature,
-                    double strong_curvature, int border, std::vector<RidgePoint>& points);
+  // are looked at only where a line leads into them. border: instead of the margin; px. False, with
+  // no points, where they and the others are more than most_points: no further blocks are looked at
+  // then.
+  bool detect_lines(const GreyImage& image, const GaussianKernels& kernels, double least_curvature,
+                    double strong_curvature, int border, std::vector<RidgePoint>& points,
+                    std::size_t most_points = std::numeric_limits<std::size_t>::max());
 
   // The points in the blocks within reach (px) of those named, and others. The image is the one
   // looked at last.
@@ -53,7 +59,8 @@ class RidgeDetector {
   // slope.
   static int margin(const GaussianKernels& kernels);
 
-  double active_share() const { return active_share_; }  // of the last image's blocks
+  // Of the blocks of detect's or detect_lines' last image: those looked at.
+  double active_share() const { return active_share_; }
 
  private:
   // What one thread works with.
@@ -62,10 +69,12 @@ class RidgeDetector {
     std::vector<RidgePoint> found;  // block by block
     std::vector<int> of_row;        // how many of them, for each of the image's rows
     std::size_t followed = 0;       // of those found: the blocks around them are wanted
+    int looked_at = 0;              // blocks
   };
   void want(int column, int row);
-  void look_at_wanted(const GreyImage& image, const GaussianKernels& kernels, float least_curvature,
-                      int border);
+  // False where the strips have found more than most_points together.
+  bool look_at_wanted(const GreyImage& image, const GaussianKernels& kernels, float least_curvature,
+                      int border, std::size_t most_points);
   bool begins_tile(int i) const;  // the i-th wanted block
   void use(const GaussianKernels& kernels, int rows);
   void want_about(const RidgePoint& point, int reach, const GreyImage& image);
@@ -73,6 +82,7 @@ class RidgeDetector {
 
   ThreadPool pool_;
   std::vector<Strip> strips_;
+  std::atomic<std::size_t> found_ = 0;  // points, in all strips
   BlockRejection rejection_;
   std::vector<float> smooth_, first_, second_;
   std::vector<int> wanted_;  // blocks to be looked at, column by column

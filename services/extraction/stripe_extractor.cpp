@@ -31,6 +31,9 @@ constexpr double kNearEnough = 0.1;  // share of sigma that makes no difference
 // pi), rooted); what starts a segment stands out from it by eight times.
 constexpr double kNoiseCurvature = 8 * 0.2443;
 
+// px: the image's columns or rows, whichever are more.
+int lines_of(const GreyImage& image) { return std::max(image.width, image.height); }
+
 double median(FrameVector<float>& values) {
   if (values.empty()) return 0;
   const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
@@ -52,13 +55,10 @@ bool StripeExtractor::look_at(const GreyImage& image, double sigma) {
   if (kernels_.sigma != sigma) kernels_ = gaussian_kernels(sigma);
   used_sigma_ = sigma;
   const double strong = strong_curvature(sigma);
-  detector_.detect_lines(image, kernels_, settings_.weakest_share * strong, strong, border(),
-                         points_);
-  const int lines = std::max(image.width, image.height);
-  crowded_ = std::ssize(points_) > kMostPoints * lines ? points_.size() : 0;
-  if (crowded_ > 0) points_.clear();
-  linker_.link(points_, {strong, settings_.fewest_centres, kMostChainPoints * lines}, chains_,
-               &memory_);
+  crowded_ = !detector_.detect_lines(image, kernels_, settings_.weakest_share * strong, strong,
+                                     border(), points_, kMostPoints * lines_of(image));
+  linker_.link(points_, {strong, settings_.fewest_centres, kMostChainPoints * lines_of(image)},
+               chains_, &memory_);
   widths_.assign(points_.size(), 0);
   for (const Chain& chain : chains_)
     measure_widths(image, points_, chain, sigma, noise_, widths_, &memory_);
@@ -70,7 +70,7 @@ bool StripeExtractor::look_at(const GreyImage& image, double sigma) {
   selection.margin = border();
   selection.junction_reach = 3 * sigma;
   selector_.select(points_, chains_, widths_, selection, selection_, &memory_);
-  return crowded_ == 0 && !linker_.left_out();
+  return !crowded_ && !linker_.left_out();
 }
 
 double StripeExtractor::chosen_strength() const {
@@ -239,9 +239,9 @@ void StripeExtractor::extract(const GreyImage& image, Stripe& stripe) {
   measure(image);
   describe(image, stripe);
   stripe.empty = !stripe.centres.empty() ? ""
-                 : crowded_ > 0
-                     ? std::to_string(crowded_) + " ridge points, too many to tell a stripe from"
-                     : "no stripe found";
+                 : crowded_ ? "more than " + std::to_string(kMostPoints * lines_of(image)) +
+                                  " ridge points, too many to tell a stripe from"
+                            : "no stripe found";
   if (follows && sigma_ > 0) follow_scale();
 }
 

@@ -75,7 +75,7 @@ class StripeExtractor {
   FrameMemory memory_;
   double noise_ = 0;
   double used_sigma_ = 0;
-  std::size_t crowded_ = 0;  // ridge points, where they are too many to tell a stripe from
+  bool crowded_ = false;  // by more ridge points than a stripe can be told from
   RidgeDetector detector_;
   Linker linker_;
   Selector selector_;

@@ -58,6 +58,37 @@ TEST_CASE("ridge points are the same bytes for any number of threads") {
   CHECK(seen > 10000);
 }
 
+TEST_CASE("whether an image has more points than wanted does not depend on the threads") {
+  const GaussianKernels kernels = gaussian_kernels(2.5);
+  RidgeDetector one(1), several(GENERATE(1, 2, 3, 7));
+  for (const cv::Mat& grey : images())
+    for (const double strong : {0.3, 1.5}) {
+      std::vector<RidgePoint> expected, points;
+      one.detect_lines(view_of(grey), kernels, 0.25, strong, 2, expected);
+      const std::size_t count = expected.size();
+      CHECK(several.detect_lines(view_of(grey), kernels, 0.25, strong, 2, points, count));
+      REQUIRE(points.size() == count);
+      const double share = several.active_share();
+      CHECK(share == one.active_share());
+      if (count == 0) continue;
+      CHECK(std::memcmp(points.data(), expected.data(), count * sizeof(RidgePoint)) == 0);
+      CHECK_FALSE(several.detect_lines(view_of(grey), kernels, 0.25, strong, 2, points, count - 1));
+      CHECK(points.empty());
+    }
+}
+
+TEST_CASE("with more points than wanted the rest of the image is not looked at") {
+  RidgeDetector detector(GENERATE(1, 2, 3));
+  std::vector<RidgePoint> points;
+  const GaussianKernels kernels = gaussian_kernels(2.5);
+  const cv::Mat noise = expose(darkness(800, 155, 128), 40);
+  REQUIRE(detector.detect_lines(view_of(noise), kernels, 0.25, 1.5, 2, points));
+  REQUIRE(detector.active_share() > 0.99);
+  const std::size_t count = points.size();
+  CHECK_FALSE(detector.detect_lines(view_of(noise), kernels, 0.25, 1.5, 2, points, count / 5));
+  CHECK(detector.active_share() < 0.35);
+}
+
 TEST_CASE("the stripe is the same for any number of threads") {
   ExtractionSettings settings;
   settings.sigma_px = GENERATE(0.0, 2.5);  // followed, or set
