@@ -39,15 +39,17 @@ struct Planes {
   }
 };
 
-// Eight grey values as floats; eight more may be read. The compiler takes a plain loop apart.
+// Eight grey values as floats. The compiler takes a plain loop apart.
 template <int kFloats>
 ARCSTART_INLINE_BODY void widen(const std::uint8_t* from, float* to) {
 #if defined(__x86_64__) && defined(__GNUC__)
   if constexpr (kFloats >= 8) {
     typedef char Bytes __attribute__((vector_size(16)));
-    Bytes bytes;
+    typedef std::int64_t Longs __attribute__((vector_size(16)));
+    std::int64_t bytes;
     std::memcpy(&bytes, from, sizeof bytes);
-    store(to, __builtin_convertvector(__builtin_ia32_pmovzxbd256(bytes), Lanes<8>));
+    store(to,
+          __builtin_convertvector(__builtin_ia32_pmovzxbd256((Bytes)Longs{bytes, 0}), Lanes<8>));
     return;
   }
 #endif
@@ -59,9 +61,10 @@ template <int kFloats>
 ARCSTART_INLINE_BODY void load_greys(const RidgeTile& tile, int v, int grey_stride, float* greys) {
   const std::uint8_t* row = tile.image.row(reflect_101(v, tile.image.height));
   const int begin = tile.column - tile.half_width, size = kTileWidth + 2 * tile.half_width;
-  // Rows lie too far apart for the processor to see what comes next.
-  __builtin_prefetch(row + begin + 12 * tile.image.stride);
-  if (begin >= 0 && begin + grey_stride + 8 <= tile.image.width)
+  // Rows lie too far apart for the processor to see what comes next. What lies left of the last
+  // pixel has mostly come with the tile before.
+  __builtin_prefetch(row + begin + size - 1 + 12 * tile.image.stride);
+  if (begin >= 0 && begin + grey_stride <= tile.image.width)
     for (int k = 0; k < grey_stride; k += 8) widen<kFloats>(row + begin + k, greys + k);
   else
     for (int k = 0; k < size; ++k) greys[k] = row[reflect_101(begin + k, tile.image.width)];
