@@ -45,7 +45,8 @@ bool RidgeDetector::detect_lines(const GreyImage& image, const GaussianKernels& 
     all_found =
         look_at_wanted(image, kernels, static_cast<float>(least_curvature), border, most_points);
     wanted_.clear();
-    if (all_found && least_curvature < strong_curvature)
+    const bool more = std::find(is_wanted_.begin(), is_wanted_.end(), 0) != is_wanted_.end();
+    if (all_found && more && least_curvature < strong_curvature)
       for (Strip& strip : strips_)
         for (; strip.followed < strip.found.size(); ++strip.followed)
           want_about(strip.found[strip.followed], kLineReach, image);
