@@ -20,12 +20,22 @@ int RidgeDetector::margin(const GaussianKernels& kernels) {
 
 void RidgeDetector::detect(const GreyImage& image, const GaussianKernels& kernels,
                            double least_curvature, std::vector<RidgePoint>& points) {
-  detect_lines(image, kernels, least_curvature, least_curvature, margin(kernels), points);
+  look(image, kernels, {least_curvature, kOwnPixel, margin(kernels)}, least_curvature, points,
+       std::numeric_limits<std::size_t>::max());
 }
 
 bool RidgeDetector::detect_lines(const GreyImage& image, const GaussianKernels& kernels,
                                  double least_curvature, double strong_curvature, int border,
                                  std::vector<RidgePoint>& points, std::size_t most_points) {
+  const bool all_found = look(image, kernels, {least_curvature, kFarthest, border},
+                              strong_curvature, points, most_points);
+  drop_twice_found(points);
+  return all_found;
+}
+
+bool RidgeDetector::look(const GreyImage& image, const GaussianKernels& kernels,
+                         const Sought& sought, double strong_curvature,
+                         std::vector<RidgePoint>& points, std::size_t most_points) {
   active_share_ = 0;
   if (std::min(image.width, image.height) <= 2 * kernels.half_width + 1) {
     points.clear();
@@ -42,11 +52,10 @@ bool RidgeDetector::detect_lines(const GreyImage& image, const GaussianKernels& 
       if (rejection_.active(column, row)) want(column, row);
   bool all_found = true;
   while (all_found && !wanted_.empty()) {
-    all_found =
-        look_at_wanted(image, kernels, static_cast<float>(least_curvature), border, most_points);
+    all_found = look_at_wanted(image, kernels, sought, most_points);
     wanted_.clear();
     const bool more = std::find(is_wanted_.begin(), is_wanted_.end(), 0) != is_wanted_.end();
-    if (all_found && more && least_curvature < strong_curvature)
+    if (all_found && more && sought.least_curvature < strong_curvature)
       for (Strip& strip : strips_)
         for (; strip.followed < strip.found.size(); ++strip.followed)
           want_about(strip.found[strip.followed], kLineReach, image);
@@ -72,9 +81,10 @@ void RidgeDetector::detect_about(const GreyImage& image, const GaussianKernels& 
   is_wanted_.assign(static_cast<std::size_t>(rejection_.columns()) * rejection_.rows(), 0);
   for (const RidgePoint& point : about) want_about(point, reach, image);
   std::sort(wanted_.begin(), wanted_.end());
-  look_at_wanted(image, kernels, static_cast<float>(least_curvature), border,
+  look_at_wanted(image, kernels, {least_curvature, kFarthest, border},
                  std::numeric_limits<std::size_t>::max());
   collect_in_raster_order(image.height, points);
+  drop_twice_found(points);
 }
 
 void RidgeDetector::use(const GaussianKernels& kernels, int rows) {
@@ -107,7 +117,7 @@ bool RidgeDetector::begins_tile(int i) const {
 // The tiles are the same for any number of strips, and so is what rounding does in them. So is the
 // answer: points found are never fewer for looking further, and only more than most_points stop it.
 bool RidgeDetector::look_at_wanted(const GreyImage& image, const GaussianKernels& kernels,
-                                   float least_curvature, int border, std::size_t most_points) {
+                                   const Sought& sought, std::size_t most_points) {
   const auto count = static_cast<int>(wanted_.size());
   const auto next_tile = [&](int i) {
     while (i < count && !begins_tile(i)) ++i;
@@ -120,15 +130,17 @@ bool RidgeDetector::look_at_wanted(const GreyImage& image, const GaussianKernels
       end = next_tile(i + 1);
       strip.looked_at += end - i;
       const int column = wanted_[i] / rejection_.rows(), row = wanted_[i] % rejection_.rows();
-      const int first_row = std::max(row * BlockRejection::kHeight, border);
+      const int first_row = std::max(row * BlockRejection::kHeight, sought.border);
       const int end_row =
-          std::min((row + end - i) * BlockRejection::kHeight, image.height - border);
+          std::min((row + end - i) * BlockRejection::kHeight, image.height - sought.border);
       if (first_row >= end_row) continue;
       const std::size_t before = strip.found.size();
-      find_ridge_points({image, smooth_.data(), first_.data(), second_.data(), kernels.half_width,
-                         least_curvature, column * BlockRejection::kWidth, first_row,
-                         end_row - first_row, border, image.width - 1 - border, strip.work.data()},
-                        strip.found);
+      find_ridge_points(
+          {image, smooth_.data(), first_.data(), second_.data(), kernels.half_width,
+           static_cast<float>(sought.least_curvature), static_cast<float>(sought.farthest),
+           column * BlockRejection::kWidth, first_row, end_row - first_row, sought.border,
+           image.width - 1 - sought.border, strip.work.data()},
+          strip.found);
       for (std::size_t k = before; k < strip.found.size(); ++k) ++strip.of_row[strip.found[k].row];
       found_ += strip.found.size() - before;
     }
@@ -179,6 +191,34 @@ void RidgeDetector::collect_in_raster_order(int height, std::vector<RidgePoint>&
           *place = *run;
         }
     }
+}
+
+// Between two pixels a line is a little farther from each than it truly is. Of the pixels that
+// claim it, the one it is nearest to keeps it: none keeps a point beyond its own border whose
+// neighbour there has one.
+void RidgeDetector::drop_twice_found(std::vector<RidgePoint>& points) {
+  constexpr float kDropped = -1;  // curvature
+  const auto beyond = [](float offset) {
+    return offset > kOwnPixel ? 1 : offset < -kOwnPixel ? -1 : 0;
+  };
+  bool any = false;
+  for (RidgePoint& point : points) {
+    const int right = beyond(point.u - static_cast<float>(point.column)),
+              below = beyond(point.v - static_cast<float>(point.row));
+    if (right == 0 && below == 0) continue;
+    const int row = point.row + below;
+    if (row < 0 || row + 1 >= std::ssize(row_begin_)) continue;
+    const auto end = points.begin() + row_begin_[row + 1];
+    const auto neighbour =
+        std::lower_bound(points.begin() + row_begin_[row], end, point.column + right,
+                         [](const RidgePoint& p, int column) { return p.column < column; });
+    if (neighbour == end || neighbour->column != point.column + right ||
+        neighbour->curvature == kDropped)
+      continue;
+    point.curvature = kDropped;
+    any = true;
+  }
+  if (any) std::erase_if(points, [](const RidgePoint& p) { return p.curvature == kDropped; });
 }
 
 }  // namespace arcstart

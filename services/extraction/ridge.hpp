@@ -25,6 +25,9 @@ class RidgeDetector {
  public:
   // px, in columns and in rows: pixels of neighbouring points of a line lie no farther apart.
   static constexpr int kLineReach = 3;
+  // px, of a point from its pixel's middle, in u and in v: within its own pixel, and where no other
+  // has it.
+  static constexpr float kOwnPixel = 0.5, kFarthest = 0.6f;
 
   // threads: that work on an image at once, each on a strip of it. The points do not depend on how
   // many.
@@ -40,11 +43,15 @@ class RidgeDetector {
   void detect(const GreyImage& image, const GaussianKernels& kernels, double least_curvature,
               std::vector<RidgePoint>& points);
 
+  // By that a line midway between two rows of pixels has no point: beside its crest it is curved
+  // less, so that the extremum seems farther than it is. So from here on it may lie a tenth of a
+  // pixel farther, where the pixel that it lies in does not have it.
+  //
   // Of those points all that hang together with one of at least strong_curvature, neighbours being
   // kLineReach apart at most, and some others: what hysteresis needs. Blocks without a strong point
   // are looked at only where a line leads into them. border: instead of the margin; px. False, with
-  // no points, where they and the others are more than most_points: no further blocks are looked at
-  // then.
+  // no points, where they and the others, some found twice, are more than most_points: no further
+  // blocks are looked at then.
   bool detect_lines(const GreyImage& image, const GaussianKernels& kernels, double least_curvature,
                     double strong_curvature, int border, std::vector<RidgePoint>& points,
                     std::size_t most_points = std::numeric_limits<std::size_t>::max());
@@ -71,14 +78,24 @@ class RidgeDetector {
     std::size_t followed = 0;       // of those found: the blocks around them are wanted
     int looked_at = 0;              // blocks
   };
+  // Which pixels.
+  struct Sought {
+    double least_curvature;  // grey values / px^2
+    double farthest;         // px
+    int border;              // px
+  };
+  // False as detect_lines.
+  bool look(const GreyImage& image, const GaussianKernels& kernels, const Sought& sought,
+            double strong_curvature, std::vector<RidgePoint>& points, std::size_t most_points);
   void want(int column, int row);
   // False where the strips have found more than most_points together.
-  bool look_at_wanted(const GreyImage& image, const GaussianKernels& kernels, float least_curvature,
-                      int border, std::size_t most_points);
+  bool look_at_wanted(const GreyImage& image, const GaussianKernels& kernels, const Sought& sought,
+                      std::size_t most_points);
   bool begins_tile(int i) const;  // the i-th wanted block
   void use(const GaussianKernels& kernels, int rows);
   void want_about(const RidgePoint& point, int reach, const GreyImage& image);
   void collect_in_raster_order(int height, std::vector<RidgePoint>& points);
+  void drop_twice_found(std::vector<RidgePoint>& points);
 
   ThreadPool pool_;
   std::vector<Strip> strips_;

@@ -57,10 +57,12 @@ ARCSTART_INLINE_BODY void keep_from(int begin, BentPixels<kFloats>& pixels) {
 }
 
 // Of the pixels from begin on. The eigenvalue of largest absolute value must be the negative one; t
-// is the extremum's distance along its eigenvector n (Steger 1998, Eq. 22).
+// is the extremum's distance along its eigenvector n (Steger 1998, Eq. 22), farthest the most that
+// it may be in u and in v.
 template <int kFloats>
-ARCSTART_INLINE_BODY void find_extrema(float least_curvature, const BentPixels<kFloats>& pixels,
-                                       int begin, Extrema<kFloats>& e) {
+ARCSTART_INLINE_BODY void find_extrema(float least_curvature, float farthest,
+                                       const BentPixels<kFloats>& pixels, int begin,
+                                       Extrema<kFloats>& e) {
   const float *u = pixels.u + begin, *v = pixels.v + begin;
   const float *uu = pixels.uu + begin, *uv = pixels.uv + begin, *vv = pixels.vv + begin;
   for (int i = 0; i < kFloats; ++i) {
@@ -78,7 +80,7 @@ ARCSTART_INLINE_BODY void find_extrema(float least_curvature, const BentPixels<k
     const float t = -(u[i] * nu + v[i] * nv) / (eigenvalue * square);
     const float du = t * nu, dv = t * nv;
     const bool is_ridge = (half_trace <= 0) & (eigenvalue <= -least_curvature) &
-                          (std::abs(du) <= 0.5f) & (std::abs(dv) <= 0.5f);
+                          (std::abs(du) <= farthest) & (std::abs(dv) <= farthest);
     e.column[i] = static_cast<std::int32_t>(pixels.column[begin + i]);
     e.row[i] = static_cast<std::int32_t>(pixels.row[begin + i]);
     e.u[i] = pixels.column[begin + i] + du;

@@ -149,7 +149,7 @@ ARCSTART_INLINE_BODY void take_points(const RidgeTile& tile, bool all, BentPixel
   int begin = 0;
   for (; all ? begin < pixels.count : begin + kFloats <= pixels.count; begin += kFloats) {
     Extrema<kFloats> e;
-    find_extrema(tile.least_curvature, pixels, begin, e);
+    find_extrema(tile.least_curvature, tile.farthest, pixels, begin, e);
     std::uint32_t bits = signs_of<kFloats>(load_as<typename Register<kFloats>::Mask>(e.is_ridge));
     if (pixels.count - begin < kFloats) bits &= (1u << (pixels.count - begin)) - 1;
     for (; bits != 0; bits &= bits - 1) {

@@ -18,6 +18,7 @@ struct RidgeTile {
   const float* second;
   int half_width;
   float least_curvature;
+  float farthest;                 // a ridge point from its pixel's middle, in u and in v; px
   int column, row, rows;          // the tile: 16 columns from column on, rows from row on
   int first_column, last_column;  // pixels outside them are left out
   float* work;                    // ridge_tile_work(half_width) floats, finite
