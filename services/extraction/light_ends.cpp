@@ -12,15 +12,17 @@ namespace arcstart {
 namespace {
 
 // In widths of the stripe. The last centres turn aside where an edge cuts the stripe at a slant:
-// the line is taken from those before.
-constexpr double kMostSkipped = 20, kLeastSkipped = 6, kFitted = 10, kMostFitted = 35;
+// the line is taken from those before, the farther from the end the better if they tell it.
+constexpr std::array kSkipped{14.0, 10.0, 6.0};
+constexpr double kFitted = 10;
 constexpr int kFewestFitted = 15;
+constexpr double kMostOff = 0.15;  // a line's centres, in the root of the mean square; px
 // Sigma of the bend: the smaller, the less the line's error and other light count, and the more
 // speckle does.
 constexpr double kBlur = 0.7;
-constexpr double kReach = 7;           // from the end the light is as before, or gone
-constexpr double kDark = 4;            // so long at least it is, behind the end
-constexpr double kFarthestMoved = 12;  // an end
+constexpr double kReach = 5;          // from the end the light is as before, or gone
+constexpr double kDark = 4;           // so long at least it is, behind the end
+constexpr double kFarthestMoved = 6;  // an end
 constexpr double kNearAnother = 4;
 constexpr int kPlateau = 20;         // px that tell the brightness before the end
 constexpr double kGone = 0.25;       // share of it that is left at most
@@ -99,36 +101,46 @@ class Segment {
     return count < kFewestFitted ? 0 : std::clamp(sum / count, kLeastWidth, kLargestWidth);
   }
 
-  // From the point of the line that is nearest to the last centre.
-  std::optional<Ray> ray(double stripe_width) const {
-    const auto in_widths = [&](double widths) {
-      return static_cast<int>(std::lround(widths * stripe_width));
-    };
-    const int from = std::clamp(size() - in_widths(kFitted), in_widths(kLeastSkipped), in_widths(kMostSkipped));
-    const int count = std::min(size() - from, in_widths(kMostFitted));
-    if (count < kFewestFitted) return std::nullopt;
+  // The line of centres from the one `skipped` before the last on, as many as lie on one, from the
+  // point of it that is nearest to the last.
+  std::optional<Ray> ray(int skipped, double stripe_width) const {
+    const int fewest =
+                  std::max(kFewestFitted, static_cast<int>(std::lround(kFitted * stripe_width))),
+              most = std::min(size() - skipped, 4 * fewest);
+    std::optional<Ray> best;
+    for (int count = fewest; count <= most; count += count / 2) {
+      Ray ray{};
+      if (!fit(skipped, count, ray)) break;
+      best = ray;
+    }
+    return best;
+  }
+
+ private:
+  // False where they do not lie on a line.
+  bool fit(int from, int count, Ray& ray) const {
     const StripeCentre &near = (*this)[from], &far = (*this)[from + count - 1];
     const double length = std::hypot(near.u - far.u, near.v - far.v);
     const double du = (near.u - far.u) / length, dv = (near.v - far.v) / length;
     // Off that chord, against the way along it.
-    double x = 0, y = 0, xx = 0, xy = 0;
+    double x = 0, y = 0, xx = 0, xy = 0, yy = 0;
     for (int i = from; i < from + count; ++i) {
       const double u = (*this)[i].u - near.u, v = (*this)[i].v - near.v;
       const double along = u * du + v * dv, off = v * du - u * dv;
-      x += along, y += off, xx += along * along, xy += along * off;
+      x += along, y += off, xx += along * along, xy += along * off, yy += off * off;
     }
     const double slope = (count * xy - x * y) / (count * xx - x * x),
                  at_0 = (y - slope * x) / count;
+    if (yy - at_0 * y - slope * xy > kMostOff * kMostOff * count) return false;
     const double scale = 1 / std::hypot(1, slope);
-    Ray ray{near.u - at_0 * dv, near.v + at_0 * du, scale * (du - slope * dv),
-            scale * (dv + slope * du)};
+    ray = {near.u - at_0 * dv, near.v + at_0 * du, scale * (du - slope * dv),
+           scale * (dv + slope * du)};
     const StripeCentre& tip = (*this)[0];
     const double t = (tip.u - ray.u) * ray.du + (tip.v - ray.v) * ray.dv;
     ray.u += t * ray.du, ray.v += t * ray.dv;
-    return ray;
+    return true;
   }
 
- private:
   const std::vector<StripeCentre>& centres_;
   std::size_t begin_, end_;
   bool last_;
@@ -189,11 +201,11 @@ class Brightness {
   bool whole_ = false;
 };
 
-bool near_another(const std::vector<StripeCentre>& centres, int segment, double u, double v,
+bool near_another(const std::vector<StripeCentre>& centres, const StripeCentre& tip,
                   double distance) {
   return std::any_of(centres.begin(), centres.end(), [&](const StripeCentre& centre) {
-    return centre.segment != segment && std::abs(centre.u - u) < distance &&
-           std::hypot(centre.u - u, centre.v - v) < distance;
+    return centre.segment != tip.segment && std::abs(centre.u - tip.u) < distance &&
+           std::hypot(centre.u - tip.u, centre.v - tip.v) < distance;
   });
 }
 
@@ -205,18 +217,21 @@ struct MovedEnd {
 std::optional<MovedEnd> moved_end(const GreyImage& image, const std::vector<StripeCentre>& centres,
                                   const Segment& segment) {
   const double width = segment.width();
-  const auto ray = width > 0 ? segment.ray(width) : std::nullopt;
-  if (!ray || near_another(centres, segment[0].segment, ray->u, ray->v, kNearAnother * width))
-    return std::nullopt;
-  const auto end = Brightness(image, *ray, width).end(segment.size());
-  if (!end) return std::nullopt;
-  MovedEnd moved{static_cast<float>(ray->u + *end * ray->du),
-                 static_cast<float>(ray->v + *end * ray->dv), 0};
-  const auto before_end = [&](const StripeCentre& centre) {
-    return (moved.u - centre.u) * ray->du + (moved.v - centre.v) * ray->dv;
-  };
-  while (before_end(segment[moved.dropped]) < kLeastStep) ++moved.dropped;
-  return moved;
+  const StripeCentre& tip = segment[0];
+  if (width == 0 || near_another(centres, tip, kNearAnother * width)) return std::nullopt;
+  for (const double skipped : kSkipped) {
+    const auto ray = segment.ray(static_cast<int>(std::lround(skipped * width)), width);
+    const auto end = ray ? Brightness(image, *ray, width).end(segment.size()) : std::nullopt;
+    if (!end) continue;
+    MovedEnd moved{static_cast<float>(ray->u + *end * ray->du),
+                   static_cast<float>(ray->v + *end * ray->dv), 0};
+    const auto before_end = [&](const StripeCentre& centre) {
+      return (moved.u - centre.u) * ray->du + (moved.v - centre.v) * ray->dv;
+    };
+    while (before_end(segment[moved.dropped]) < kLeastStep) ++moved.dropped;
+    return moved;
+  }
+  return std::nullopt;
 }
 
 }  // namespace

@@ -5,6 +5,8 @@
 
 #include "services/extraction/end_centres.hpp"
 #include "services/extraction/finer_centres.hpp"
+#include "services/extraction/light_ends.hpp"
+#include "services/extraction/segment_ends.hpp"
 #include "services/extraction/stripe_quality.hpp"
 
 namespace arcstart {
@@ -238,6 +240,7 @@ void StripeExtractor::extract(const GreyImage& image, Stripe& stripe) {
     look_at(image, std::round(sigma_ / kSigmaStep) * kSigmaStep);
   measure(image);
   describe(image, stripe);
+  if (settings_.smooth_course) end_at_light(image, stripe.centres);
   stripe.empty = !stripe.centres.empty() ? ""
                  : crowded_ ? "more than " + std::to_string(kMostPoints * lines_of(image)) +
                                   " ridge points, too many to tell a stripe from"

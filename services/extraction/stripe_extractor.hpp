@@ -12,20 +12,10 @@
 #include "services/extraction/linking.hpp"
 #include "services/extraction/ridge.hpp"
 #include "services/extraction/scatter.hpp"
-#include "services/extraction/segment_ends.hpp"
 #include "services/extraction/selection.hpp"
+#include "services/extraction/stripe_centre.hpp"
 
 namespace arcstart {
-
-struct StripeCentre {
-  float u, v;       // px, pixel centres at integers
-  float strength;   // N of Eq. 3; grey values
-  float width;      // standard deviation of the profile; px, 0 where not measured
-  float deviation;  // standard deviation across the stripe; px
-  std::int16_t segment;
-  bool chosen;     // else a second candidate
-  SegmentEnd end;  // why its segment ends here
-};
 
 struct Stripe {
   std::vector<StripeCentre> centres;  // segment by segment, in order along each

@@ -15,11 +15,15 @@ constexpr int kPriorPlaces = 2;       // with that noise, in the estimate of the
 constexpr double kFloor = 0.02;       // of an edge, whatever the number of its places; mm
 // A stripe's last centre lies before the edge by `shortening_px`, square to it: by so much more or
 // less each, and all of an edge together, for light ends over edges in many ways; px.
-constexpr double kEndDeviation = 0.35, kShorteningDeviation = 0.18;
-constexpr int kSharpBeyond = 2;  // places
-constexpr double kOutlier = 3;   // standard deviations
-constexpr double kNearSeam = 3;  // of it stripes turn into the other plate; mm
-constexpr double kFarEdge = 3;   // a stripe that ends so near the plate's far edge ends there; mm
+// The more, the flatter a stripe crosses the edge: its light fades slowly then.
+constexpr double kEndDeviation = 0.2, kShorteningDeviation = 0.1;
+constexpr double kFlatCrossing = 0.3;   // along the seam for each mm of the stripe
+constexpr double kFlatDeviation = 8;     // px for each so much less
+constexpr int kSharpBeyond = 2;          // places
+constexpr double kOutlier = 3;           // standard deviations
+constexpr double kNormalMedian = 1.483;  // standard deviation over the median of absolute values
+constexpr double kNearSeam = 3;          // of it stripes turn into the other plate; mm
+constexpr double kFarEdge = 3;  // a stripe that ends so near the plate's far edge ends there; mm
 constexpr double kLeastDrop = 0.5;  // between points on a cut; mm
 constexpr int kMostOnCut = 20;      // points
 constexpr double kCutSlant = 0.15;  // of a cut, mm along the seam for each mm of its depth
@@ -141,7 +145,8 @@ std::optional<Place> place_of(const ScanCloud& cloud, const std::vector<int>& ru
     place.pixel = pixel_along(cloud, last, inner, line, stripes.away);
     place.along = line.along(*point) + outward * search.shortening_px * place.pixel;
     place.away = stripes.away.dot(*point - line.point);
-    place.deviation = std::hypot(kEndDeviation * place.pixel, kBeam * search.noise);
+    const double end = kEndDeviation + kFlatDeviation * std::max(0.0, kFlatCrossing - slant);
+    place.deviation = std::hypot(end * place.pixel, kBeam * search.noise);
     place.sharp = true;
   } else {
     // A segment that runs on turns at the plate's edge into the cut, if the cut is in sight; else
@@ -177,6 +182,16 @@ EdgeFit fit_edge(const std::vector<Place>& places, double noise) {
   rr += 1 / (kSquareCut * kSquareCut);
   const double determinant = w * rr - r * r;
   return {(t * rr - r * rt) / determinant, (w * rt - r * t) / determinant, rr / determinant};
+}
+
+// The median; of an even number the upper of the two in the middle.
+template <class Value>
+double middle_of(const std::vector<Place>& places, Value value) {
+  std::vector<double> values;
+  for (const Place& place : places) values.push_back(value(place));
+  const auto middle = values.begin() + std::ssize(values) / 2;
+  std::nth_element(values.begin(), middle, values.end());
+  return *middle;
 }
 
 // Places of one edge; several that are sharp tell a plate's edge also where it was not expected.
@@ -223,36 +238,40 @@ std::optional<PlateEdge> find_edge(const ScanCloud& cloud, const PlateStripes& s
   if (on_edge.size() == 1 && (on_edge[0].away <= kNearSeam || !on_edge[0].sharp))
     return std::nullopt;
 
-  PlateEdge edge;
-  for (int pass = 0; pass < 3 && !on_edge.empty(); ++pass) {
-    EdgeFit fit = fit_edge(on_edge, kLeastNoise);
-    double squares = kPriorPlaces * kLeastNoise * kLeastNoise;
-    for (const Place& place : on_edge) {
-      const double off = place.along - fit.at_seam - fit.slope * place.away;
-      squares += std::max(0.0, off * off - place.deviation * place.deviation);
-    }
-    const double noise =
-        std::sqrt(squares / (kPriorPlaces + static_cast<double>(on_edge.size()) - 1));
-    fit = fit_edge(on_edge, noise);
-    edge.along = fit.at_seam;
-    double pixel = 0;
-    edge.away = 0;
-    for (const Place& place : on_edge) {
-      pixel += place.pixel / static_cast<double>(on_edge.size());
-      edge.away += place.away / static_cast<double>(on_edge.size());
-    }
-    edge.variance = fit.variance + kFloor * kFloor + std::pow(kShorteningDeviation * pixel, 2);
-    edge.stripes = static_cast<int>(on_edge.size());
-    const auto occluded =
-        std::count_if(on_edge.begin(), on_edge.end(), [](const Place& p) { return p.occluded; });
-    edge.occluded = 2 * occluded > edge.stripes;
-    const auto outliers = std::erase_if(on_edge, [&](const Place& place) {
-      return std::abs(place.along - fit.at_seam - fit.slope * place.away) >
-             kOutlier * std::sqrt(variance_of(place, noise));
-    });
-    if (outliers == 0) break;
-  }
   if (on_edge.empty()) return std::nullopt;
+
+  // From the middle place on, so that one that is off draws no edge to it.
+  EdgeFit fit{middle_of(on_edge, [](const Place& place) { return place.along; }), 0, 0};
+  for (int pass = 0; pass < 3; ++pass) {
+    const auto off = [&fit](const Place& place) {
+      return std::abs(place.along - fit.at_seam - fit.slope * place.away);
+    };
+    const double spread = kNormalMedian * middle_of(on_edge, off),
+                 known = middle_of(on_edge, [](const Place&place) { return place.deviation; });
+    const auto count = static_cast<double>(on_edge.size());
+    const double noise = std::sqrt((kPriorPlaces * kLeastNoise * kLeastNoise +
+                                    count * std::max(0.0, spread * spread - known * known)) /
+                                   (kPriorPlaces + count - 1));
+    std::erase_if(on_edge, [&](const Place& place) {
+      return off(place) > kOutlier * std::sqrt(variance_of(place, noise));
+    });
+    if (on_edge.empty()) return std::nullopt;
+    fit = fit_edge(on_edge, noise);
+  }
+  PlateEdge edge;
+  edge.along = fit.at_seam;
+  const auto mean = [&on_edge](double Place::*value) {
+    double sum = 0;
+    for (const Place& place : on_edge) sum += place.*value;
+    return sum / static_cast<double>(on_edge.size());
+  };
+  edge.away = mean(&Place::away);
+  edge.variance =
+      fit.variance + kFloor * kFloor + std::pow(kShorteningDeviation * mean(&Place::pixel), 2);
+  edge.stripes = static_cast<int>(on_edge.size());
+  const auto occluded =
+      std::count_if(on_edge.begin(), on_edge.end(), [](const Place& p) { return p.occluded; });
+  edge.occluded = 2 * occluded > edge.stripes;
   if (std::count_if(on_edge.begin(), on_edge.end(), clear) > 1)
     edge.clear_to =
         std::max_element(on_edge.begin(), on_edge.end(), [](const Place& a, const Place& b) {

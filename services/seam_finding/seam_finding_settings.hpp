@@ -53,10 +53,10 @@ struct SeamFindingSettings {
   // points of both plates along the seam.
   std::string start_rule = "edges";
   int start_points = 10;  // x
-  // The detector's last centre of a segment lies so many pixels before the edge of what it lies on,
-  // square to the edge in the image, whatever the slant at which the stripe crosses it. A third of
-  // the sigma at which the detector measures its centres.
-  double edge_shortening_px = 0.5;
+  // So many pixels before the edge of what it lies on a segment ends, square to the edge in the
+  // image, whatever the slant at which the stripe crosses it. The extraction's ends are put at the
+  // edge; those of a ridge as found lie a fifth of its sigma before it.
+  double edge_shortening_px = 0;
 
   // Torch.
   double torch_work_angle_deg = 0;     // between it and the flatter plate; 0: in the middle of both

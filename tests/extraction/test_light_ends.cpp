@@ -63,7 +63,7 @@ TEST_CASE("a segment ends where an edge cuts off the middle of the stripe") {
   double as_found = 0;
   for (const double slope : {0.05, -0.25, 0.6})
     for (const double width : {1.4, 2.5})
-      for (const double slant : {-75, -60, -30, 0, 30, 60, 75}) {
+      for (const double slant : {-65, -50, -25, 0, 25, 50, 65}) {
         double sum = 0, most = 0;
         for (int seed = 1; seed <= 5; ++seed) {
           const CutStripe s{250 + 0.23 * seed, 100 + 0.37 * seed, slope, slant, width, 120};

@@ -201,9 +201,28 @@ TEST_CASE("centres as found are those of the ridge points") {
   std::vector<RidgePoint> points;
   detector.detect(view_of(grey), gaussian_kernels(2.5), 0.3, points);
   REQUIRE(stripe.centres.size() > 550);
+  // But for the few between two rows or columns.
+  const auto between = [](float x) { return std::abs(x - std::round(x)) > 0.4f; };
   for (const StripeCentre& c : stripe.centres)
-    REQUIRE(std::any_of(points.begin(), points.end(),
-                        [&](const RidgePoint& p) { return p.u == c.u && p.v == c.v; }));
+    REQUIRE((between(c.u) || between(c.v) ||
+             std::any_of(points.begin(), points.end(),
+                         [&](const RidgePoint& p) { return p.u == c.u && p.v == c.v; })));
+}
+
+TEST_CASE("a level stripe is found whole, also between two rows of pixels") {
+  for (const double slope : {0.0, 0.003})
+    for (const double width : {0.9, 1.4, 2.5})
+      for (double row = 100; row <= 101; row += 0.0625) {
+        cv::Mat light = darkness(400, 200);
+        add_stripe(light, 20, row - 180 * slope, 380, row + 180 * slope, 120, width);
+        const Stripe stripe = extract(expose(light, 2));
+        CAPTURE(slope, width, row);
+        REQUIRE(stripe.centres.size() > 350);
+        CHECK(stripe.centres.back().segment == 0);
+        for (const StripeCentre& c : stripe.centres)
+          if (c.u > 25 && c.u < 375)
+            REQUIRE(std::abs(c.v - row - slope * (c.u - 200)) < (width < 1 ? 0.2 : 0.06));
+      }
 }
 
 TEST_CASE("segments end at the border, and in white") {
@@ -293,6 +312,6 @@ TEST_CASE("on coarse grain the centres are measured at a smaller sigma than they
     add(once, ExtractionSettings{}.sigma_per_width);
     add(again, ExtractionSettings{}.measuring_sigma_per_width);
   }
-  CHECK(again.centres == once.centres);
+  CHECK(again.centres == Approx(once.centres).epsilon(0.01));
   CHECK(again.rms() < 0.95 * once.rms());
 }

@@ -244,33 +244,49 @@ SyntheticScan make_scan(const Scene& scene, const ScanChoice& choice, std::uint6
     const Eigen::Vector3d shift(random.normal(choice.stripe_noise),
                                 random.normal(choice.stripe_noise),
                                 random.normal(choice.stripe_noise));
+    const auto seen = [&](double ray) -> std::optional<Lit> {
+      const auto lit =
+          lit_and_seen(scene, laser, (laser_axis + ray * step * lateral).normalized(), camera);
+      if (!lit || std::abs((lit->point - camera).normalized().dot(lateral)) > 800.0 / 2400)
+        return std::nullopt;
+      return lit;
+    };
+    const auto joined = [](const Lit& a, const Lit& b) {
+      return (a.point - b.point).norm() <= 1.5;
+    };
     std::vector<std::vector<Lit>> segments;
-    Eigen::Vector3d last = Eigen::Vector3d::Zero();
-    bool runs_on = false;
+    std::vector<int> first_rays;
     for (int i = -kHalf; i < kHalf; ++i) {
-      const Eigen::Vector3d ray = (laser_axis + i * step * lateral).normalized();
-      const auto lit = lit_and_seen(scene, laser, ray, camera);
-      if (!lit || std::abs((lit->point - camera).normalized().dot(lateral)) > 800.0 / 2400) {
-        runs_on = false;
-        continue;
-      }
-      if (!runs_on || (lit->point - last).norm() > 1.5) segments.emplace_back();
+      const auto lit = seen(i);
+      if (!lit) continue;
+      const bool runs_on = !segments.empty() &&
+                           first_rays.back() + std::ssize(segments.back()) == i &&
+                           joined(segments.back().back(), *lit);
+      if (!runs_on) segments.emplace_back(), first_rays.push_back(i);
       segments.back().push_back(*lit);
-      last = lit->point;
-      runs_on = true;
     }
-    int number = 0;
-    for (auto& segment : segments) {
-      for (const bool front : {true, false}) {
-        const std::size_t lost =
-            std::min<std::size_t>(segment.size(), random.between(0, 1) < 0.3 ? 0 : 1);
-        const auto count = static_cast<std::ptrdiff_t>(lost);
-        if (front)
-          segment.erase(segment.begin(), segment.begin() + count);
+    // Where the light on the surface of the last ray ends before the next, which meets another.
+    const auto light_end = [&](const Lit& before, Lit last, double ray, double next) {
+      const Eigen::Vector3d way = last.point - before.point;
+      for (int halving = 0; halving < 8; ++halving) {
+        const double middle = (ray + next) / 2;
+        const auto lit = seen(middle);
+        if (lit && joined(*lit, last) &&
+            way.normalized().cross(lit->point - before.point).norm() < 0.05)
+          last = *lit, ray = middle;
         else
-          segment.erase(segment.end() - count, segment.end());
+          next = middle;
       }
-      if (segment.size() < 4) continue;
+      last.point += random.normal(choice.end_noise) * way;
+      return last;
+    };
+    int number = 0;
+    for (std::size_t s = 0; s < segments.size(); ++s) {
+      auto& segment = segments[s];
+      if (segment.size() < 5) continue;
+      const int first = first_rays[s], last = first + static_cast<int>(segment.size()) - 1;
+      segment.front() = light_end(segment[1], segment.front(), first, first - 1);
+      segment.back() = light_end(segment[segment.size() - 2], segment.back(), last, last + 1);
       for (std::size_t i = 0; i < segment.size(); ++i) {
         const bool end = i == 0 || i + 1 == segment.size();
         if (!end && i % static_cast<std::size_t>(choice.thin) != 0) continue;
@@ -280,10 +296,11 @@ SyntheticScan make_scan(const Scene& scene, const ScanChoice& choice, std::uint6
         const double off = outlier ? random.between(-20, 20) : random.normal(choice.noise);
         cloud.points.push_back(segment[i].point + off * beam + shift);
         scan.truth.push_back(outlier ? Truth::kOutlier : segment[i].truth);
-        const std::size_t next = i == 0 ? 1 : i - 1;
+        // From whole pixels' rays.
+        const std::size_t at = std::clamp<std::size_t>(i, 1, segment.size() - 3);
         cloud.origins.push_back(
             {static_cast<int>(cloud.stripes.size()), number, end, static_cast<float>(choice.noise),
-             static_cast<float>((segment[i].point - segment[next].point).norm())});
+             static_cast<float>((segment[at + 1].point - segment[at].point).norm())});
       }
       ++number;
     }

@@ -1,7 +1,7 @@
 // Scans of a scene of boxes on an uneven table, in closed form: a fan of laser rays in each
-// stripe's plane, the first box it meets, and whether the camera sees that point. A segment loses
-// its last centre, as in images that go through the detector: square to the edge it ends half
-// a pixel before it. No image, no code of the product beside its cloud.
+// stripe's plane, the first box it meets, and whether the camera sees that point. A segment's ends
+// lie between the pixels' rays, where the light ends, as far off as those found in images. No
+// image, no code of the product beside its cloud.
 #pragma once
 
 #include <Eigen/Geometry>
@@ -52,6 +52,7 @@ struct ScanChoice {
   int thin = 15;       // M: every M-th centre of a segment, and its last
   double noise =
       0.1;  // of each point along the laser's beam, as an error across the stripe moves it; mm
+  double end_noise = 0.2;      // of a segment's end along the stripe; px
   double stripe_noise = 0.02;   // of the tool's position, common to a stripe; mm, each axis
   double from = -35, to = 150;  // of the tool along the search; mm
   double lean_deg = 38;         // of the optical axis over the open side
