@@ -109,6 +109,33 @@ TEST_CASE("a stripe that ends behind something before the edge is no place of it
   CHECK(edge->along == Approx(2).margin(0.15));
 }
 
+TEST_CASE("a stripe whose light ends too early draws no edge to it") {
+  Made made = make(2, 0.4, false, 6);
+  const EdgeSearch search{-1, 5, 0, 0.5, 0.02, 0.03};
+  const auto as_made = edge_of(made, SeamSide::kBegin, search);
+  REQUIRE(as_made);
+  REQUIRE(as_made->stripes >= 4);
+  for (const int i : made.plate.points)
+    if (made.cloud.origins[i].segment_end && std::abs(made.cloud.points[i].x() - 2) < 0.1) {
+      made.cloud.points[i] += Eigen::Vector3d(0.3, -0.3 / 0.4, 0);
+      break;
+    }
+  const auto edge = edge_of(made, SeamSide::kBegin, search);
+  REQUIRE(edge);
+  CHECK(edge->stripes == as_made->stripes - 1);
+  CHECK(edge->along == Approx(as_made->along).margin(0.04));
+}
+
+TEST_CASE("a place where a stripe crosses an edge flatly counts for little") {
+  const auto variance = [](double slant) {
+    const Made made = make(2, slant, false, 7);
+    const auto edge = edge_of(made, SeamSide::kBegin, {-1, 5, 0, 0.5, 0.02, 0.03});
+    REQUIRE(edge);
+    return edge->variance * edge->stripes;
+  };
+  CHECK(variance(0.2) > 4 * variance(0.4));
+}
+
 TEST_CASE("there is no edge where none is expected, nor in a cloud without stripes") {
   const Made made = make(2, 0.3, false, 5);
   CHECK_FALSE(edge_of(made, SeamSide::kBegin, {40, 46, 0, 0.5, 0.02, 0.5}));
