@@ -11,9 +11,11 @@
 namespace arcstart {
 namespace {
 
-// In widths of the stripe. The last centres turn aside where an edge cuts the stripe at a slant:
-// the line is taken from those before, the farther from the end the better if they tell it.
-constexpr std::array kSkipped{14.0, 10.0, 6.0};
+// In widths of the stripe. The last centres turn aside where an edge cuts the stripe at a slant,
+// the more of them the flatter it does, and the longer the light fades: the line is taken from
+// those before, no farther from the end than it takes, for a stripe may be curved.
+constexpr std::array kSkipped{6.0, 10.0, 14.0};
+constexpr double kTurnedAside = 4.5, kNotTurned = 2;  // of the fading's length; widths off that
 constexpr double kFitted = 10;
 constexpr int kFewestFitted = 15;
 constexpr double kMostOff = 0.15;  // a line's centres, in the root of the mean square; px
@@ -146,6 +148,11 @@ class Segment {
   bool last_;
 };
 
+struct LightEnd {
+  double at = 0;   // px along the ray
+  int fading = 0;  // px over which the light goes from three quarters to one
+};
+
 // Brightness along a ray, at whole px.
 class Brightness {
  public:
@@ -162,12 +169,12 @@ class Brightness {
     whole_ = true;
   }
 
-  // px along the ray to where the light is half as bright as before, and gone soon after.
-  std::optional<double> end(int length_before) const {
+  // Where the light is half as bright as before, and gone soon after.
+  std::optional<LightEnd> end(int length_before) const {
     if (!whole_) return std::nullopt;
-    double end = 0;
+    LightEnd end;
     for (int pass = 0; pass < 2; ++pass) {
-      const int before = static_cast<int>(std::floor(end)) - reach_;
+      const int before = static_cast<int>(std::floor(end.at)) - reach_;
       if (kPlateau - before > length_before) return std::nullopt;
       double light = 0;
       int white = 0;
@@ -183,7 +190,11 @@ class Brightness {
       for (int beyond = t + reach_; beyond < t + reach_ + dark_; ++beyond)
         if (values_[index(beyond)] > kGone * light) return std::nullopt;
       const double inner = values_[index(t - 1)], outer = values_[index(t)];
-      end = t - 1 + (inner - light / 2) / (inner - outer);
+      end.at = t - 1 + (inner - light / 2) / (inner - outer);
+      int last_bright = t - 1, first_dim = t;
+      while (values_[index(last_bright)] < (1 - kGone) * light) --last_bright;
+      while (values_[index(first_dim)] > kGone * light) ++first_dim;
+      end.fading = first_dim - last_bright - 1;
     }
     return end;
   }
@@ -219,19 +230,20 @@ std::optional<MovedEnd> moved_end(const GreyImage& image, const std::vector<Stri
   const double width = segment.width();
   const StripeCentre& tip = segment[0];
   if (width == 0 || near_another(centres, tip, kNearAnother * width)) return std::nullopt;
+  std::optional<MovedEnd> moved;
   for (const double skipped : kSkipped) {
     const auto ray = segment.ray(static_cast<int>(std::lround(skipped * width)), width);
     const auto end = ray ? Brightness(image, *ray, width).end(segment.size()) : std::nullopt;
     if (!end) continue;
-    MovedEnd moved{static_cast<float>(ray->u + *end * ray->du),
-                   static_cast<float>(ray->v + *end * ray->dv), 0};
+    moved = MovedEnd{static_cast<float>(ray->u + end->at * ray->du),
+                     static_cast<float>(ray->v + end->at * ray->dv), 0};
     const auto before_end = [&](const StripeCentre& centre) {
-      return (moved.u - centre.u) * ray->du + (moved.v - centre.v) * ray->dv;
+      return (moved->u - centre.u) * ray->du + (moved->v - centre.v) * ray->dv;
     };
-    while (before_end(segment[moved.dropped]) < kLeastStep) ++moved.dropped;
-    return moved;
+    while (before_end(segment[moved->dropped]) < kLeastStep) ++moved->dropped;
+    if (kTurnedAside * end->fading <= (skipped + kNotTurned) * width) break;
   }
-  return std::nullopt;
+  return moved;
 }
 
 }  // namespace
