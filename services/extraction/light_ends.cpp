@@ -3,10 +3,9 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <numbers>
 #include <optional>
 
-#include "services/extraction/stripe_quality.hpp"
+#include "services/extraction/light_end.hpp"
 
 namespace arcstart {
 namespace {
@@ -19,69 +18,9 @@ constexpr double kTurnedAside = 4.5, kNotTurned = 2;  // of the fading's length;
 constexpr double kFitted = 10;
 constexpr int kFewestFitted = 15;
 constexpr double kMostOff = 0.15;  // a line's centres, in the root of the mean square; px
-// Sigma of the bend: the smaller, the less the line's error and other light count, and the more
-// speckle does.
-constexpr double kBlur = 0.7;
-constexpr double kReach = 5;          // from the end the light is as before, or gone
-constexpr double kDark = 4;           // so long at least it is, behind the end
-constexpr double kFarthestMoved = 6;  // an end
 constexpr double kNearAnother = 4;
-constexpr int kPlateau = 20;         // px that tell the brightness before the end
-constexpr double kGone = 0.25;       // share of it that is left at most
-constexpr double kMostWhite = 0.25;  // share of those px at 255
-constexpr double kLeastStep = 0.5;   // px from the centre before
+constexpr double kLeastStep = 0.5;  // px from the centre before
 constexpr std::int16_t kDropped = -1;
-constexpr double kLeastWidth = 0.8, kLargestWidth = 12;  // px
-
-// A Gaussian and its derivatives about a place between pixels.
-struct Taps {
-  static constexpr int kMost = 64;
-  static constexpr double kReachOfTaps = 3.5;
-
-  Taps(double centre, double sigma)
-      : first(static_cast<int>(std::ceil(centre - kReachOfTaps * sigma))),
-        count(static_cast<int>(std::floor(centre + kReachOfTaps * sigma)) - first + 1) {
-    for (int i = 0; i < count; ++i) {
-      const double t = (first + i - centre) / sigma;
-      const double g = std::exp(-t * t / 2) / (std::sqrt(2 * std::numbers::pi) * sigma);
-      smooth[i] = static_cast<float>(g);
-      slope[i] = static_cast<float>(t / sigma * g);
-      bend[i] = static_cast<float>((t * t - 1) / (sigma * sigma) * g);
-    }
-  }
-
-  int first, count;
-  std::array<float, kMost> smooth, slope, bend;
-};
-
-// From a point of the stripe on, in the direction it has there.
-struct Ray {
-  double u, v;    // px
-  double du, dv;  // unit, outwards
-};
-
-// How much the grey values, smoothed, bend across the ray, t px along it; grey values / px^2.
-std::optional<double> bend_at(const GreyImage& image, const Ray& ray, double t, double sigma) {
-  const Taps columns(ray.u + t * ray.du, sigma), rows(ray.v + t * ray.dv, sigma);
-  if (columns.first < 0 || rows.first < 0 || columns.first + columns.count > image.width ||
-      rows.first + rows.count > image.height)
-    return std::nullopt;
-  double uu = 0, uv = 0, vv = 0;
-  for (int j = 0; j < rows.count; ++j) {
-    const std::uint8_t* greys = image.row(rows.first + j) + columns.first;
-    float smooth = 0, slope = 0, bend = 0;
-    for (int i = 0; i < columns.count; ++i) {
-      const float grey = greys[i];
-      smooth += columns.smooth[i] * grey;
-      slope += columns.slope[i] * grey;
-      bend += columns.bend[i] * grey;
-    }
-    uu += rows.smooth[j] * bend;
-    uv += rows.slope[j] * slope;
-    vv += rows.bend[j] * smooth;
-  }
-  return -(ray.dv * ray.dv * uu - 2 * ray.du * ray.dv * uv + ray.du * ray.du * vv);
-}
 
 // Of one segment, from the end in question inwards.
 class Segment {
@@ -105,13 +44,13 @@ class Segment {
 
   // The line of centres from the one `skipped` before the last on, as many as lie on one, from the
   // point of it that is nearest to the last.
-  std::optional<Ray> ray(int skipped, double stripe_width) const {
+  std::optional<StripeRay> ray(int skipped, double stripe_width) const {
     const int fewest =
                   std::max(kFewestFitted, static_cast<int>(std::lround(kFitted * stripe_width))),
               most = std::min(size() - skipped, 4 * fewest);
-    std::optional<Ray> best;
+    std::optional<StripeRay> best;
     for (int count = fewest; count <= most; count += count / 2) {
-      Ray ray{};
+      StripeRay ray{};
       if (!fit(skipped, count, ray)) break;
       best = ray;
     }
@@ -120,7 +59,7 @@ class Segment {
 
  private:
   // False where they do not lie on a line.
-  bool fit(int from, int count, Ray& ray) const {
+  bool fit(int from, int count, StripeRay& ray) const {
     const StripeCentre &near = (*this)[from], &far = (*this)[from + count - 1];
     const double length = std::hypot(near.u - far.u, near.v - far.v);
     const double du = (near.u - far.u) / length, dv = (near.v - far.v) / length;
@@ -148,70 +87,6 @@ class Segment {
   bool last_;
 };
 
-struct LightEnd {
-  double at = 0;   // px along the ray
-  int fading = 0;  // px over which the light goes from three quarters to one
-};
-
-// Brightness along a ray, at whole px.
-class Brightness {
- public:
-  Brightness(const GreyImage& image, const Ray& ray, double width)
-      : reach_(static_cast<int>(std::ceil(kReach * width))),
-        farthest_(static_cast<int>(std::lround(kFarthestMoved * width))),
-        dark_(static_cast<int>(std::ceil(kDark * width))) {
-    for (int t = -farthest_ - reach_ - kPlateau; t <= farthest_ + reach_; ++t) {
-      const auto bend = bend_at(image, ray, t, kBlur * width);
-      if (!bend) return;
-      values_[index(t)] = *bend;
-      white_[index(t)] = is_saturated(image, ray.u + t * ray.du, ray.v + t * ray.dv);
-    }
-    whole_ = true;
-  }
-
-  // Where the light is half as bright as before, and gone soon after.
-  std::optional<LightEnd> end(int length_before) const {
-    if (!whole_) return std::nullopt;
-    LightEnd end;
-    for (int pass = 0; pass < 2; ++pass) {
-      const int before = static_cast<int>(std::floor(end.at)) - reach_;
-      if (kPlateau - before > length_before) return std::nullopt;
-      double light = 0;
-      int white = 0;
-      for (int t = before - kPlateau + 1; t <= before; ++t)
-        light += values_[index(t)] / kPlateau, white += white_[index(t)];
-      if (!(light > 0) || white > kMostWhite * kPlateau) return std::nullopt;
-      // A dark spot of the stripe is shorter than what is dark behind an edge.
-      int t = -farthest_, dark = 0;
-      for (; t <= farthest_ && dark < dark_; ++t)
-        dark = values_[index(t)] < light / 2 ? dark + 1 : 0;
-      t -= dark;
-      if (dark < dark_ || t == -farthest_) return std::nullopt;
-      for (int beyond = t + reach_; beyond < t + reach_ + dark_; ++beyond)
-        if (values_[index(beyond)] > kGone * light) return std::nullopt;
-      const double inner = values_[index(t - 1)], outer = values_[index(t)];
-      end.at = t - 1 + (inner - light / 2) / (inner - outer);
-      int last_bright = t - 1, first_dim = t;
-      while (values_[index(last_bright)] < (1 - kGone) * light) --last_bright;
-      while (values_[index(first_dim)] > kGone * light) ++first_dim;
-      end.fading = first_dim - last_bright - 1;
-    }
-    return end;
-  }
-
- private:
-  static constexpr std::size_t kMost =
-      2 * static_cast<std::size_t>((kFarthestMoved + kReach) * kLargestWidth + 2) + kPlateau + 1;
-  std::size_t index(int t) const {
-    return static_cast<std::size_t>(t + farthest_ + reach_ + kPlateau);
-  }
-
-  int reach_, farthest_, dark_;
-  std::array<double, kMost> values_;
-  std::array<bool, kMost> white_;
-  bool whole_ = false;
-};
-
 bool near_another(const std::vector<StripeCentre>& centres, const StripeCentre& tip,
                   double distance) {
   return std::any_of(centres.begin(), centres.end(), [&](const StripeCentre& centre) {
@@ -233,7 +108,7 @@ std::optional<MovedEnd> moved_end(const GreyImage& image, const std::vector<Stri
   std::optional<MovedEnd> moved;
   for (const double skipped : kSkipped) {
     const auto ray = segment.ray(static_cast<int>(std::lround(skipped * width)), width);
-    const auto end = ray ? Brightness(image, *ray, width).end(segment.size()) : std::nullopt;
+    const auto end = ray ? light_end(image, *ray, width, segment.size()) : std::nullopt;
     if (!end) continue;
     moved = MovedEnd{static_cast<float>(ray->u + end->at * ray->du),
                      static_cast<float>(ray->v + end->at * ray->dv), 0};
