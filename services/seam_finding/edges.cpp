@@ -17,8 +17,11 @@ constexpr double kFloor = 0.02;       // of an edge, whatever the number of its 
 // less each, and all of an edge together, for light ends over edges in many ways; px.
 // The more, the flatter a stripe crosses the edge: its light fades slowly then.
 constexpr double kEndDeviation = 0.2, kShorteningDeviation = 0.1;
-constexpr double kFlatCrossing = 0.3;   // along the seam for each mm of the stripe
-constexpr double kFlatDeviation = 8;     // px for each so much less
+constexpr double kFlatCrossing = 0.3;  // along the seam for each mm of the stripe
+constexpr double kFlatDeviation = 8;   // px for each so much less
+// Odds that plates are cut flush (3 to 7), times the way over which others' edges scatter about
+// each other (13), over the root of 2 pi; mm.
+constexpr double kFlushOdds = 2.3;
 constexpr int kSharpBeyond = 2;          // places
 constexpr double kOutlier = 3;           // standard deviations
 constexpr double kNormalMedian = 1.483;  // standard deviation over the median of absolute values
@@ -278,6 +281,11 @@ std::optional<PlateEdge> find_edge(const ScanCloud& cloud, const PlateStripes& s
           return a.away < b.away;
         })->away;
   return edge;
+}
+
+bool cut_flush(const PlateEdge& a, const PlateEdge& b) {
+  const double variance = a.variance + b.variance, odds = kFlushOdds / std::sqrt(variance);
+  return odds > 1 && std::pow(a.along - b.along, 2) < 2 * std::log(odds) * variance;
 }
 
 }  // namespace arcstart

@@ -35,4 +35,9 @@ struct PlateEdge {
 std::optional<PlateEdge> find_edge(const ScanCloud& cloud, const PlateStripes& stripes,
                                    SeamSide side, const EdgeSearch& search);
 
+// Of two plates' edges along one line: whether the plates are cut flush, rather than that their
+// edges lie so near each other by chance. The less is known of them the nearer they must be, in
+// deviations.
+bool cut_flush(const PlateEdge& a, const PlateEdge& b);
+
 }  // namespace arcstart

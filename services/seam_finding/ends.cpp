@@ -198,8 +198,8 @@ class EndFinder {
     PlateEdge edge = edges_[0] ? *edges_[0] : *edges_[1];
     if (edges_[0] && edges_[1]) {
       const PlateEdge &a = *edges_[0], &b = *edges_[1];
-      const double difference = a.along - b.along, variance = a.variance + b.variance;
-      if (difference * difference <= kSameEdge * kSameEdge * variance && a.occluded == b.occluded) {
+      const double variance = a.variance + b.variance;
+      if (cut_flush(a, b) && a.occluded == b.occluded) {
         edge.along = (a.along * b.variance + b.along * a.variance) / variance;
         edge.variance = a.variance * b.variance / variance;
       } else {

@@ -10,10 +10,9 @@
 namespace arcstart {
 namespace {
 
-constexpr double kSameEdge = 2.5;  // standard deviations of their difference
-constexpr double kMargin = 0.5;    // of an edge about the stripes that enclose it; mm
-constexpr double kFloor = 0.02;    // of the seam across, whatever the number of its places; mm
-constexpr double kBridge = 20;     // mm
+constexpr double kMargin = 0.5;  // of an edge about the stripes that enclose it; mm
+constexpr double kFloor = 0.02;  // of the seam across, whatever the number of its places; mm
+constexpr double kBridge = 20;   // mm
 // Flat on the table a plate's edge is crossed by few stripes, at a small slant.
 constexpr double kEdgeFactor = 2.25;  // of the variance of an edge that many would cross
 constexpr double kEdgeFloor = 0.08;   // mm
@@ -157,8 +156,8 @@ SeamEnd find_flat_end(const ScanCloud& cloud, const Joint& joint,
   end.visibility = EndVisibility::kSeen;
   if (edges.size() == 2) {
     const PlateEdge &a = edges[0], &b = edges[1];
-    const double variance = a.variance + b.variance, difference = a.along - b.along;
-    if (difference * difference <= kSameEdge * kSameEdge * variance) {  // cut flush
+    const double variance = a.variance + b.variance;
+    if (cut_flush(a, b)) {
       end.along = (a.along * b.variance + b.along * a.variance) / variance;
       end.variance = a.variance * b.variance / variance;
       end.by_edges = true;

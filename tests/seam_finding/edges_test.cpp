@@ -136,6 +136,21 @@ TEST_CASE("a place where a stripe crosses an edge flatly counts for little") {
   CHECK(variance(0.2) > 4 * variance(0.4));
 }
 
+TEST_CASE("edges are one where flush plates explain them better than chance") {
+  const auto flush = [](double difference, double deviation) {
+    PlateEdge a, b;
+    b.along = difference;
+    a.variance = b.variance = deviation * deviation / 2;
+    return cut_flush(a, b);
+  };
+  CHECK(flush(0, 0.05));
+  CHECK(flush(0.2, 0.1));  // two deviations
+  CHECK_FALSE(flush(0.4, 0.1));
+  CHECK(flush(0.9, 0.6));
+  CHECK_FALSE(flush(1.2, 0.6));  // two as well, but little is known
+  CHECK_FALSE(flush(0, 3));
+}
+
 TEST_CASE("there is no edge where none is expected, nor in a cloud without stripes") {
   const Made made = make(2, 0.3, false, 5);
   CHECK_FALSE(edge_of(made, SeamSide::kBegin, {40, 46, 0, 0.5, 0.02, 0.5}));
