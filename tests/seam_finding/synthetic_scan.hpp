@@ -52,7 +52,7 @@ struct ScanChoice {
   int thin = 15;       // M: every M-th centre of a segment, and its last
   double noise =
       0.1;  // of each point along the laser's beam, as an error across the stripe moves it; mm
-  double end_noise = 0.2;      // of a segment's end along the stripe; px
+  double end_noise = 0.2;       // of a segment's end along the stripe; px
   double stripe_noise = 0.02;   // of the tool's position, common to a stripe; mm, each axis
   double from = -35, to = 150;  // of the tool along the search; mm
   double lean_deg = 38;         // of the optical axis over the open side
