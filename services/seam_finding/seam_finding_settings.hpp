@@ -54,8 +54,8 @@ struct SeamFindingSettings {
   std::string start_rule = "edges";
   int start_points = 10;  // x
   // So many pixels before the edge of what it lies on a segment ends, square to the edge in the
-  // image, whatever the slant at which the stripe crosses it. The extraction's ends are put at the
-  // edge; those of a ridge as found lie a fifth of its sigma before it.
+  // image, whatever the slant at which the stripe crosses it. The extraction puts them at the edge;
+  // for stripes that come from elsewhere.
   double edge_shortening_px = 0;
 
   // Torch.
