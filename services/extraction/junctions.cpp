@@ -9,9 +9,6 @@
 namespace arcstart {
 namespace {
 
-// px along the image between strands that follow on each other.
-constexpr float kStep = 5;
-
 // Ends of strands, 2 * strand + side, that share a junction.
 class Junctions {
  public:
@@ -93,12 +90,12 @@ void find_ends_that_lead_on(const std::vector<RidgePoint>& points, const Sight& 
   for (Strand& strand : strands)
     for (const int side : {0, 1}) {
       const float at = place(strand, side), inwards = place(strand, 1 - side) - at;
-      const bool out_of_sight = at < static_cast<float>(sight.first) + kStep ||
-                                at > static_cast<float>(sight.last) - kStep;
+      const bool out_of_sight = at < static_cast<float>(sight.first) + Strand::kStep ||
+                                at > static_cast<float>(sight.last) - Strand::kStep;
       const FrameVector<float>& others = ends[!(inwards > 0)];
-      const auto near = std::partition_point(others.begin(), others.end(),
-                                             [&](float other) { return other - at < -kStep; });
-      const bool steps = near != others.end() && *near - at <= kStep;
+      const auto near = std::partition_point(
+          others.begin(), others.end(), [&](float other) { return other - at < -Strand::kStep; });
+      const bool steps = near != others.end() && *near - at <= Strand::kStep;
       strand.leads_on[side] = out_of_sight || steps || strand.junction[side] >= 0;
     }
 }

@@ -19,6 +19,7 @@ struct Sight {
 // A chain, or the part of one between the places where ends of others meet it.
 struct Strand {
   static constexpr float kLeastWay = 15;  // px along the image; what leads less far is a scrap
+  static constexpr float kStep = 5;  // px along the image between strands that follow on each other
 
   Chain points;
   // At its first and its last point:

@@ -25,10 +25,11 @@ constexpr int kEvidence = 80;
 // A strand as it leaves a junction.
 struct Leaving {
   int strand;
-  bool forward;    // towards larger columns (rows where along_rows)
-  float way;       // how far it leads that way; px
-  float strength;  // mean curvature near the junction
-  float fade;      // that, by what it is at the strand's other end
+  bool forward;     // towards larger columns (rows where along_rows)
+  float near, far;  // columns (rows) of its end at the junction, and of its other one; px
+  float way;        // how far it leads; px
+  float strength;   // mean curvature near the junction
+  float fade;       // that, by what it is at the strand's other end
 };
 
 Leaving leave(const std::vector<RidgePoint>& points, const Sight& sight,
@@ -48,8 +49,8 @@ Leaving leave(const std::vector<RidgePoint>& points, const Sight& sight,
   const int far_end = std::max(begin + 1, size - kCorner);
   const float far_strength = mean_of(std::max(begin, far_end - kNear), far_end);
   const RidgePoint &near = from_junction(0), &far = from_junction(size - 1);
-  const float way = sight.along_rows ? far.v - near.v : far.u - near.u;
-  return {index, way > 0, std::abs(way), strength, strength / far_strength};
+  const float from = sight.along_rows ? near.v : near.u, to = sight.along_rows ? far.v : far.u;
+  return {index, to > from, from, to, std::abs(to - from), strength, strength / far_strength};
 }
 
 void mark_at_corners(const std::vector<RidgePoint>& points, const Sight& sight,
@@ -63,6 +64,7 @@ void mark_at_corners(const std::vector<RidgePoint>& points, const Sight& sight,
   for (auto& [junction, leaving] : junctions)
     std::sort(leaving.begin(), leaving.end(),
               [](const Leaving& a, const Leaving& b) { return a.strength > b.strength; });
+  FrameVector<const Leaving*> stripes(strands.get_allocator().resource());
   for (const bool by_strength : {false, true})
     for (const auto& [junction, leaving] : junctions)
       for (const bool forward : {false, true}) {
@@ -75,18 +77,25 @@ void mark_at_corners(const std::vector<RidgePoint>& points, const Sight& sight,
           const Strand& strand = strands[one.strand];
           return concerns(one) && !strand.reflection && (by_strength || !strand.hangs());
         };
-        float strongest = 0;
+        stripes.clear();
         for (const Leaving& one : leaving)
-          if (may_be_stripe(one)) strongest = std::max(strongest, one.strength);
+          if (may_be_stripe(one)) stripes.push_back(&one);
+        // The tip of the stripe beside a step in the profile leads on to what begins there: that is
+        // not its reflection.
+        const auto strongest_beside = [&](const Leaving& one) {
+          for (const Leaving* stripe : stripes)
+            if (std::abs(stripe->far - one.near) > Strand::kStep) return stripe->strength;
+          return 0.0f;
+        };
         float least_fade = std::numeric_limits<float>::infinity();  // of those that are stronger
         auto stronger = leaving.begin();
         for (const Leaving& one : leaving) {
           for (; stronger->strength > one.strength; ++stronger)
             if (may_be_stripe(*stronger)) least_fade = std::min(least_fade, stronger->fade);
-          const bool outdone =
-              by_strength ? strongest > kStronger * one.strength || one.fade > kFades * least_fade
-                          : strongest > kFaintest * one.strength;
-          if (outdone && concerns(one) && strands[one.strand].hangs())
+          if (!concerns(one) || !strands[one.strand].hangs()) continue;
+          const float strongest = strongest_beside(one);
+          if (by_strength ? strongest > kStronger * one.strength || one.fade > kFades * least_fade
+                          : strongest > kFaintest * one.strength)
             strands[one.strand].reflection = true;
         }
       }

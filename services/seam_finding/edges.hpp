@@ -16,12 +16,14 @@ struct EdgeSearch {
   double tolerance = 0.5;    // of a point's distance from its plate; mm
   double noise = 0.05;       // of the points across their surface, standard deviation; mm
   double shortening_px = 0;  // a stripe's last centre lies so far before the edge, square to it
+  double slope = 0.001;      // of a plate's edge, standard deviation; mm along for each mm away
 };
 
 struct PlateEdge {
   double along = 0;     // where it crosses the seam; mm
   double variance = 0;  // mm2
   double away = 0;      // from the seam, of the mean of the places that tell it; mm
+  double pixel = 0;     // what one square to the edge is along the seam, their mean; mm
   // And of the farthest, where at least two stripes clearly end there; infinite otherwise.
   double clear_to = std::numeric_limits<double>::infinity();
   int stripes = 0;        // that leave the plate over it
@@ -35,9 +37,14 @@ struct PlateEdge {
 std::optional<PlateEdge> find_edge(const ScanCloud& cloud, const PlateStripes& stripes,
                                    SeamSide side, const EdgeSearch& search);
 
-// Of two plates' edges along one line: whether the plates are cut flush, rather than that their
-// edges lie so near each other by chance. The less is known of them the nearer they must be, in
-// deviations.
-bool cut_flush(const PlateEdge& a, const PlateEdge& b);
+// Where on a line, from within its two plates outward, not both are there any more.
+struct CommonEnd {
+  double along = 0, variance = 0;  // mm, mm2
+};
+
+// Of plates whose edges are given. They are flush, or the one ends first; how near their edges lie
+// to each other, for what is known of them, says how likely either is, and both enter with that
+// share.
+CommonEnd end_of_both(const PlateEdge& a, const PlateEdge& b, SeamSide side);
 
 }  // namespace arcstart

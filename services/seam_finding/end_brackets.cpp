@@ -9,6 +9,7 @@ namespace {
 
 constexpr double kFlush = 0.3;   // share of joints whose plates end together
 constexpr double kLight = 0.15;  // half a stripe's width: seen where it falls; mm
+constexpr double kNever = 0.01;  // share of possibilities that do not count
 constexpr double kOffsets = 40;  // the others end so far about each other; mm
 // A stripe shows a plate at the seam also where it leaves it a little before; mm along the seam.
 constexpr double kMargin = 0.5;
@@ -49,6 +50,7 @@ void narrow(EndBracket& bracket, const PlateExtent& extent, double unsure, doubl
     outer = extent.past;
     bracket.runs_on = false;
   }
+  bracket.seen_past = extent.past <= outer;
   outer = std::min(outer, extent.past);
   if (!std::isfinite(outer))
     bracket.runs_on = true;
@@ -61,8 +63,11 @@ void limit_by_bracket(SeamEnd& end, const EndBracket& bracket, double outward) {
   const double edge = outward * end.along;
   if (edge <= inner || !(outer > inner)) return;
   const double high = std::min(edge, outer), per_mm = (1 - kFlush) / kOffsets;
-  // A stripe beside the plate lets some of its light fall on it where it lies nearer than that.
-  const double beside = (outer - kLight - edge) / std::sqrt(end.variance);
+  // A stripe beside the plate lights some of it where it lies nearer than that; of one that is seen
+  // past it the half may be hidden.
+  const double beside = bracket.seen_past
+                            ? (outer - edge) / std::sqrt(end.variance + kLight * kLight)
+                            : (outer - kLight - edge) / std::sqrt(end.variance);
   const double flush = kFlush * 0.5 * std::erfc(-beside / std::sqrt(2.0));
   const double share = per_mm * (high - inner) / (per_mm * (outer - inner) + flush);
   const double middle = (inner + high) / 2;
@@ -70,6 +75,11 @@ void limit_by_bracket(SeamEnd& end, const EndBracket& bracket, double outward) {
   const double within = (high - inner) * (high - inner) / 12 + kLight * kLight;
   end.variance = share * (within + std::pow(middle - mean, 2)) +
                  (1 - share) * (end.variance + std::pow(edge - mean, 2));
+  // Two deviations reach as far in as the end may lie, lopsided as that is.
+  if (share > kNever) {
+    const double farthest = inner + kNever / share * (high - inner);
+    end.variance = std::max(end.variance, std::pow((mean - farthest) / 2, 2));
+  }
   end.along = outward * mean;
 }
 

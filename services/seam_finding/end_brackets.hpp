@@ -13,6 +13,7 @@ namespace arcstart {
 struct EndBracket {
   double inner = 0, outer = 0;  // it is there, and is not
   bool runs_on = false;         // it is there beyond the seam's end, too
+  bool seen_past = false;       // outer: else by a stripe that does not show the plate at the seam
 };
 
 // Of the stripes next to `end`.

@@ -15,6 +15,7 @@ constexpr double kNearSeam = 3, kBeside = 25;  // from the seam in a plate; mm
 constexpr double kStandsBefore = 3;            // mm
 constexpr double kFlushWithin = 0.6;           // mm
 constexpr double kSameEdge = 2.5;              // standard deviations of their difference
+constexpr double kExtent = 0.25;               // px: how well a stripe's last light is known
 constexpr double kUnseen = 2;  // a stripe that leaves a plate so near may not show it; of `near`
 constexpr double kBeyond = 3;  // stripe spacings
 constexpr double kBesideEdge = 3;  // of an edge's places, the plate's own; mm
@@ -34,7 +35,8 @@ StripeCrossings crossings_of(const ScanCloud& cloud, const Stations& stations, i
 // Stripes may end for another reason than the plate's edge: in a shadow, or behind something. What
 // is seen past a plate speaks against a lone one alone.
 bool possible(const PlateEdge& edge, const PlateExtent& extent, double outward) {
-  const double place = outward * edge.along, allowed = kSameEdge * std::sqrt(edge.variance);
+  const double place = outward * edge.along,
+               allowed = kSameEdge * std::hypot(std::sqrt(edge.variance), kExtent * edge.pixel);
   return place > extent.on - allowed && (edge.stripes > 1 || place < extent.past + allowed);
 }
 
@@ -138,6 +140,7 @@ class EndFinder {
     edge.tolerance = search_.tolerance;
     edge.noise = search_.noise;
     edge.shortening_px = search_.shortening_px;
+    edge.slope = search_.slope;
     edges_[j] = find_edge(cloud_, stripes_[j], side_, edge);
   }
 
@@ -198,12 +201,10 @@ class EndFinder {
     PlateEdge edge = edges_[0] ? *edges_[0] : *edges_[1];
     if (edges_[0] && edges_[1]) {
       const PlateEdge &a = *edges_[0], &b = *edges_[1];
-      const double variance = a.variance + b.variance;
-      if (cut_flush(a, b) && a.occluded == b.occluded) {
-        edge.along = (a.along * b.variance + b.along * a.variance) / variance;
-        edge.variance = a.variance * b.variance / variance;
-      } else {
-        edge = outward_ * a.along < outward_ * b.along ? a : b;
+      edge = outward_ * a.along < outward_ * b.along ? a : b;
+      if (a.occluded == b.occluded) {
+        const CommonEnd both = end_of_both(a, b, side_);
+        edge.along = both.along, edge.variance = both.variance;
       }
     }
     end.by_edges = true;

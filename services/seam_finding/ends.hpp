@@ -19,10 +19,11 @@ struct EndSearch {
   double tolerance = 0.5;    // of a point's distance from its plate; mm
   double noise = 0.05;       // of the points across their surface, standard deviation; mm
   double shortening_px = 0;  // a stripe's last centre lies so far before the edge, square to it
+  double slope = 0.001;      // of a plate's edge, standard deviation; mm along for each mm away
 };
 
-// The seam begins where both plates have begun: at the later of their edges; where the two agree
-// within their deviations, at their mean by variance. A plate whose edge no stripe crosses begins
+// The seam begins where both plates have begun: at the later of their edges, or, the likelier the
+// nearer these lie, at what both tell of flush ones. A plate whose edge no stripe crosses begins
 // somewhere between the last stripe that does not show it at the seam and the first that does.
 // stripes: of the plates, in the same tolerance; along their line all places are counted.
 SeamEnd find_end(const ScanCloud& cloud, const std::array<JointPlate, 2>& plates,

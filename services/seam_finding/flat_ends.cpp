@@ -136,6 +136,7 @@ SeamEnd find_flat_end(const ScanCloud& cloud, const Joint& joint,
     edge_search.tolerance = search.tolerance;
     edge_search.noise = search.noise;
     edge_search.shortening_px = search.shortening_px;
+    edge_search.slope = search.slope;
     const PlateStripes stripes = plate_stripes(cloud, joint.plates[j], joint.plates[1 - j], border,
                                                search.tolerance, search.noise);
     auto edge = find_edge(cloud, stripes, side, edge_search);
@@ -155,14 +156,11 @@ SeamEnd find_flat_end(const ScanCloud& cloud, const Joint& joint,
   if (ends.empty()) return end;
   end.visibility = EndVisibility::kSeen;
   if (edges.size() == 2) {
-    const PlateEdge &a = edges[0], &b = edges[1];
-    const double variance = a.variance + b.variance;
-    if (cut_flush(a, b)) {
-      end.along = (a.along * b.variance + b.along * a.variance) / variance;
-      end.variance = a.variance * b.variance / variance;
-      end.by_edges = true;
-      return end;
-    }
+    const CommonEnd both = end_of_both(edges[0], edges[1], side);
+    end.along = both.along;
+    end.variance = both.variance;
+    end.by_edges = true;
+    return end;
   }
   double place = 0;
   first_of(ends.front(), ends.back(), place, end.variance);

@@ -3,11 +3,12 @@
 #include <Eigen/LU>
 #include <algorithm>
 #include <array>
-#include <bitset>
 #include <cmath>
 #include <cstdint>
 #include <numeric>
+#include <optional>
 
+#include "services/seam_finding/strip_agreement.hpp"
 #include "services/seam_finding/tukey_sums.hpp"
 
 namespace arcstart {
@@ -16,10 +17,7 @@ namespace {
 constexpr std::size_t kLeastPoints = 20;
 constexpr double kTukey = 4.685;               // standard deviations
 constexpr double kMedianToDeviation = 1.4826;  // of normal noise
-constexpr std::size_t kStrips = 16;
-constexpr std::size_t kBins = 1024;   // of the points' distances from the line
-constexpr double kStripNoise = 0.25;  // of a strip's mean height, over the points' noise
-constexpr double kStripDeviations = 2.5;
+constexpr std::size_t kBins = 1024;            // of the points' distances from the line
 constexpr double kRoughness = 1.5;  // a plate's spread over the cloud's noise that is no roughness
 constexpr double kLeastSpread = 3;  // of a plate's points within their plane, over their noise
 // A step that changes nothing any more: the noise leaves the height of a plane of thousands of
@@ -67,6 +65,10 @@ class Heights {
     return h_[i] - model.offset - model.along * a_[i] - model.across * b_[i];
   }
 
+  void lower_by(const ReflectionShift& shift) {
+    for (std::size_t i = 0; i < count_; ++i) h_[i] -= static_cast<float>(shift(distance_[i]));
+  }
+
   Model narrowed(Model model, double noise, std::initializer_list<double> limits) const;
   // The same, but that only those of some strips count. strip_of: of each point.
   using Strips = std::bitset<kStrips>;
@@ -112,12 +114,12 @@ Heights Heights::chosen(const std::vector<std::uint8_t>& strip_of, const Strips&
   return some;
 }
 
-// Standard deviation of the points from the plane, as their median distance tells it; mm. A plate
-// may be rougher than the cloud is where it is smoothest.
-double spread_about(const Heights& points) {
+// Standard deviation of the points from a plane, as their median distance tells it; mm. A plate may
+// be rougher than the cloud is where it is smoothest.
+double spread_about(const Heights& points, const Heights::Model& model) {
   std::vector<float> distances(points.size());
   for (std::size_t i = 0; i < points.size(); ++i)
-    distances[i] = static_cast<float>(std::abs(points.residual({}, i)));
+    distances[i] = static_cast<float>(std::abs(points.residual(model, i)));
   const auto middle = distances.begin() + static_cast<std::ptrdiff_t>(distances.size() / 2);
   std::nth_element(distances.begin(), middle, distances.end());
   return kMedianToDeviation * *middle;
@@ -154,47 +156,21 @@ std::vector<std::uint8_t> strips_of(const Heights& points) {
   return strips;
 }
 
-// The strips of which most lie on one line, seen along the seam. The stripe's reflection from the
-// other plate shifts its centre by a tenth of a millimetre over wide strips of a plate: far less
-// than single points scatter, so that only their means tell. All where no line is plain.
-Heights::Strips in_line(const Heights& points, const std::vector<std::uint8_t>& strip_of,
-                        const Heights::Model& model, double noise) {
-  struct Strip {
-    double distance = 0, height = 0, weight = 0;  // sums, then means; mm
-  };
-  std::array<Strip, kStrips> strips{};
+// The strips' means. Nothing where one has no points within the noise.
+std::optional<StripMeans> means_of(const Heights& points, const std::vector<std::uint8_t>& strip_of,
+                                   const Heights::Model& model, double noise) {
+  StripMeans strips{};
   for (std::size_t i = 0; i < points.size(); ++i) {
     const double height = points.residual(model, i);
     if (std::abs(height) > kTukey * noise) continue;
     Strip& strip = strips[strip_of[i]];
-    strip.distance += points.distance(i), strip.height += height, ++strip.weight;
+    strip.distance += points.distance(i), strip.height += height, ++strip.points;
   }
-  const Heights::Strips all = Heights::Strips().set();
   for (Strip& strip : strips) {
-    if (strip.weight == 0) return all;
-    strip.distance /= strip.weight, strip.height /= strip.weight;
+    if (strip.points == 0) return std::nullopt;
+    strip.distance /= strip.points, strip.height /= strip.points;
   }
-  const double agree =
-      noise *
-      std::max(kStripNoise, kStripDeviations * std::sqrt(static_cast<double>(kStrips) /
-                                                         static_cast<double>(points.size())));
-  Heights::Strips most;
-  double best_off = 0;
-  for (std::size_t a = 0; a < kStrips; ++a)
-    for (std::size_t b = a + kStrips / 4; b < kStrips; ++b) {
-      const double slope = (strips[b].height - strips[a].height) /
-                           std::max(1e-6, strips[b].distance - strips[a].distance);
-      Heights::Strips on_it;
-      double off = 0;
-      for (std::size_t k = 0; k < kStrips; ++k) {
-        const double residual = std::abs(strips[k].height - strips[a].height -
-                                         slope * (strips[k].distance - strips[a].distance));
-        if (residual <= agree) on_it.set(k), off += residual;
-      }
-      if (on_it.count() > most.count() || (on_it.count() == most.count() && off < best_off))
-        most = on_it, best_off = off;
-    }
-  return 2 * most.count() < kStrips ? all : most;
+  return strips;
 }
 
 }  // namespace
@@ -202,12 +178,17 @@ Heights::Strips in_line(const Heights& points, const std::vector<std::uint8_t>& 
 Plane robust_plane(const std::vector<Eigen::Vector3d>& points, const Line& line, const Plane& plane,
                    double noise) {
   if (points.size() < kLeastPoints) return plane;
-  const Heights heights(points, line, plane);
-  const double allowed = std::max(noise, spread_about(heights) / kRoughness);
+  Heights heights(points, line, plane);
+  double allowed = std::max(noise, spread_about(heights, {}) / kRoughness);
   Heights::Model model =
       heights.narrowed({}, allowed, {4.0, 4.0, 2.0, 2.0, 1.0, 1.0, 0.6, 0.6, 0.6, 0.6});
+  allowed = std::max(noise, spread_about(heights, model) / kRoughness);
   const auto strip_of = strips_of(heights);
-  model = heights.chosen(strip_of, in_line(heights, strip_of, model, allowed))
+  const auto strips = means_of(heights, strip_of, model, allowed);
+  if (!strips) return heights.plane(model);
+  const AgreedStrips agreed = agreed_strips(*strips, allowed);
+  if (agreed.shift.most != 0) heights.lower_by(agreed.shift);
+  model = heights.chosen(strip_of, agreed.strips)
               .narrowed(model, allowed, {1.0, 1.0, 0.6, 0.6, 0.6, 0.6});
   return heights.plane(model);
 }

@@ -44,7 +44,8 @@ std::array<PlaneAccuracy, 2> plane_accuracies(const ScanCloud& scan, const Joint
 
 std::array<SeamEnd, 2> ends_of(const ScanCloud& scan, const Joint& joint, const Scales& scales,
                                const SeamFindingSettings& settings) {
-  const EndSearch search{scales.tolerance, scales.noise, settings.edge_shortening_px};
+  const EndSearch search{scales.tolerance, scales.noise, settings.edge_shortening_px,
+                         settings.edge_squareness_mm / (2 * 100)};
   std::array<SeamEnd, 2> ends;
   if (joint.flat) {
     const auto stations = stations_by_border(scan, joint, course_search(scales));

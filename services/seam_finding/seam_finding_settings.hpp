@@ -57,6 +57,10 @@ struct SeamFindingSettings {
   // image, whatever the slant at which the stripe crosses it. The extraction puts them at the edge;
   // for stripes that come from elsewhere.
   double edge_shortening_px = 0;
+  // How far plates' edges are out of square to the seam, mm over 100 mm, two standard deviations:
+  // ISO 2768-2 allows 0.2 in class H, 0.4 in K, 0.6 in L. The less, the more a place away from the
+  // seam tells of the start; places in larger number tell an edge's slope themselves.
+  double edge_squareness_mm = 0.2;
 
   // Torch.
   double torch_work_angle_deg = 0;     // between it and the flatter plate; 0: in the middle of both
@@ -103,6 +107,7 @@ struct SeamFindingSettings {
     visitor("start_rule", start_rule, one_of({"edges", "stripe", "centroid"}));
     visitor("start_points", start_points, between(1, 1000));
     visitor("edge_shortening_px", edge_shortening_px, between(0, 20));
+    visitor("edge_squareness_mm", edge_squareness_mm, between(0.01, 5));
     visitor("torch_work_angle_deg", torch_work_angle_deg, between(0, 150));
     visitor("torch_travel_angle_deg", torch_travel_angle_deg, between(-45, 45));
     visitor("approach_mm", approach_mm, between(10, 1000));

@@ -177,7 +177,7 @@ bool is_outshone(const std::vector<RidgePoint>& points, const Sight& sight,
 // How a strand leaves one of its ends, as the marking of reflections sees it.
 struct Way {
   bool forward;
-  float length, strength, fade;
+  float near, far, length, strength, fade;  // near, far: columns or rows of its ends
 };
 Way way_from(const std::vector<RidgePoint>& points, const Sight& sight, const Strand& strand,
              int side) {
@@ -192,9 +192,9 @@ Way way_from(const std::vector<RidgePoint>& points, const Sight& sight, const St
   const int begin = std::min(5, size - 1), end = std::max(begin + 1, size - 5);
   const float strength = mean(begin, std::min(40, size)),
               at_far_end = mean(std::max(begin, end - 40), end);
-  const float length =
-      sight.along_rows ? point(size - 1).v - point(0).v : point(size - 1).u - point(0).u;
-  return {length > 0, std::abs(length), strength, strength / at_far_end};
+  const auto place = [&](int i) { return sight.along_rows ? point(i).v : point(i).u; };
+  const float near = place(0), far = place(size - 1);
+  return {far > near, near, far, std::abs(far - near), strength, strength / at_far_end};
 }
 
 std::vector<bool> plain_reflections(const std::vector<RidgePoint>& points, const Sight& sight,
@@ -216,8 +216,10 @@ std::vector<bool> plain_reflections(const std::vector<RidgePoint>& points, const
             continue;
           const bool fades =
               stripe.strength > suspect.strength && suspect.fade > 1.5f * stripe.fade;
-          if (by_strength ? stripe.strength > 1.7f * suspect.strength || fades
-                          : !strands[b].hangs() && stripe.strength > 0.45f * suspect.strength)
+          const bool leads_to_it = std::abs(stripe.far - suspect.near) <= 5;
+          if (by_strength ? (!leads_to_it && stripe.strength > 1.7f * suspect.strength) || fades
+                          : !leads_to_it && !strands[b].hangs() &&
+                                stripe.strength > 0.45f * suspect.strength)
             marked[a] = true;
         }
   const std::vector<bool> at_corners = marked;

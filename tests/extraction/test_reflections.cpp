@@ -139,6 +139,16 @@ TEST_CASE("a dim surface that leads to the next is the stripe, a brighter line t
   CHECK(share[ghost] == Approx(1));
 }
 
+TEST_CASE("the tip that a stripe leaves beside a step does not make what follows its reflection") {
+  // The lower plate goes on behind the step for a few columns, and the upper one's edge, seen
+  // there, leads back to it.
+  Scene scene;
+  const int lower = scene.add(0, 170, 405, 76, 9), upper = scene.add(401, 92, 600, 166, 6);
+  const int behind = scene.add(570, 20, 900, 0, 6);
+  const auto share = scene.reflected();
+  for (const int line : {lower, upper, behind}) CHECK(share[line] == 0);
+}
+
 TEST_CASE("along rows it is the same") {
   Scene scene;
   const int base = scene.add(200, 0, 100, 400, 10);

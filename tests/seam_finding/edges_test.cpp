@@ -133,22 +133,52 @@ TEST_CASE("a place where a stripe crosses an edge flatly counts for little") {
     REQUIRE(edge);
     return edge->variance * edge->stripes;
   };
-  CHECK(variance(0.2) > 4 * variance(0.4));
+  CHECK(variance(0.1) > 4 * variance(0.4));
 }
 
-TEST_CASE("edges are one where flush plates explain them better than chance") {
-  const auto flush = [](double difference, double deviation) {
-    PlateEdge a, b;
-    b.along = difference;
-    a.variance = b.variance = deviation * deviation / 2;
-    return cut_flush(a, b);
+TEST_CASE("of two edges the first counts, or both of flush plates, as far as either is likely") {
+  // Over all places that the edges may have. Three of ten joints are flush; of the others one edge
+  // lies anywhere within 13 mm about the other.
+  const auto expected = [](const PlateEdge& a, const PlateEdge& b) {
+    const auto density = [](const PlateEdge& edge, double x) {
+      return std::exp(-std::pow(x - edge.along, 2) / (2 * edge.variance)) /
+             std::sqrt(2 * EIGEN_PI * edge.variance);
+    };
+    constexpr double kStep = 0.01;
+    double weight = 0, sum = 0, squares = 0;
+    for (double x = -1.5; x < 1.5; x += kStep) {
+      const double flush = 3.0 / 7 * 13 * density(a, x) * density(b, x) * kStep;
+      weight += flush, sum += flush * x, squares += flush * x * x;
+      for (double y = -1.5; y < 1.5; y += kStep) {
+        const double apart = density(a, x) * density(b, y) * kStep * kStep;
+        const double first = std::min(x, y);
+        weight += apart, sum += apart * first, squares += apart * first * first;
+      }
+    }
+    return CommonEnd{sum / weight, squares / weight - sum * sum / weight / weight};
   };
-  CHECK(flush(0, 0.05));
-  CHECK(flush(0.2, 0.1));  // two deviations
-  CHECK_FALSE(flush(0.4, 0.1));
-  CHECK(flush(0.9, 0.6));
-  CHECK_FALSE(flush(1.2, 0.6));  // two as well, but little is known
-  CHECK_FALSE(flush(0, 3));
+  for (const double difference : {0.0, 0.1, -0.15, 0.2, -0.25, 0.6})
+    for (const double deviation : {0.04, 0.12}) {
+      PlateEdge a, b;
+      a.along = 0.1, b.along = 0.1 + difference;
+      a.variance = deviation * deviation, b.variance = 0.08 * 0.08;
+      const CommonEnd end = end_of_both(a, b, SeamSide::kEnd), truth = expected(a, b);
+      CAPTURE(difference, deviation);
+      CHECK(end.along == Approx(truth.along).margin(0.002));
+      CHECK(std::sqrt(end.variance) == Approx(std::sqrt(truth.variance)).margin(0.002));
+      // At the begin outward is the other way.
+      a.along = -a.along, b.along = -b.along;
+      CHECK(end_of_both(a, b, SeamSide::kBegin).along == Approx(-end.along));
+    }
+}
+
+TEST_CASE("an edge out of square is found where enough stripes cross it") {
+  Made made = make(2, 0.4, false, 8);
+  for (Eigen::Vector3d& point : made.cloud.points) point.x() += 0.015 * point.y();
+  const auto edge = edge_of(made, SeamSide::kBegin, {-1, 5, 0, 0.5, 0.02, 0.03});
+  REQUIRE(edge);
+  CHECK(edge->stripes >= 4);
+  CHECK(edge->along == Approx(2).margin(0.08));
 }
 
 TEST_CASE("there is no edge where none is expected, nor in a cloud without stripes") {

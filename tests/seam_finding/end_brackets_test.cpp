@@ -38,6 +38,16 @@ TEST_CASE("a stripe that shows nothing of a plate says that it is not flush with
   CHECK(std::sqrt(end.variance) == Approx(2.95 / std::sqrt(12)).margin(0.05));
 }
 
+TEST_CASE("what is seen past a plate at the other's edge leaves it as likely flush as not") {
+  SeamEnd end = edge_at(13, 0.02);
+  EndBracket bracket{10, 13};
+  bracket.seen_past = true;
+  limit_by_bracket(end, bracket, 1);
+  // Half of 0.3 for flush, against 3 of 40 mm of 0.7.
+  const double inside = 0.7 * 3 / 40;
+  CHECK(end.along == Approx(13 - 1.5 * inside / (inside + 0.15)).margin(1e-6));
+}
+
 TEST_CASE("an edge inside what is seen of the other plate is the end") {
   SeamEnd end = edge_at(9, 0.1);
   limit_by_bracket(end, {10, 14}, 1);
@@ -56,6 +66,7 @@ TEST_CASE("what is seen on a plate and past it narrows where it ends, on either 
     narrow(bracket, {2, 12.5}, 1, 0, outward);
     CHECK(bracket.inner == outward * 9);
     // Seen beyond the stripe that did not show it, and past nowhere: it runs on.
+    CHECK(bracket.seen_past);
     bracket = {outward * 10, outward * 14};
     narrow(bracket, {20}, 1, 0, outward);
     CHECK(bracket.runs_on);
