@@ -18,6 +18,7 @@ constexpr std::size_t kLeastPoints = 20;
 constexpr double kTukey = 4.685;               // standard deviations
 constexpr double kMedianToDeviation = 1.4826;  // of normal noise
 constexpr std::size_t kBins = 1024;            // of the points' distances from the line
+constexpr std::size_t kTellSpread = 1024;      // points, evenly taken, of a plate
 constexpr double kRoughness = 1.5;  // a plate's spread over the cloud's noise that is no roughness
 constexpr double kLeastSpread = 3;  // of a plate's points within their plane, over their noise
 // A step that changes nothing any more: the noise leaves the height of a plane of thousands of
@@ -117,9 +118,11 @@ Heights Heights::chosen(const std::vector<std::uint8_t>& strip_of, const Strips&
 // Standard deviation of the points from a plane, as their median distance tells it; mm. A plate may
 // be rougher than the cloud is where it is smoothest.
 double spread_about(const Heights& points, const Heights::Model& model) {
-  std::vector<float> distances(points.size());
-  for (std::size_t i = 0; i < points.size(); ++i)
-    distances[i] = static_cast<float>(std::abs(points.residual(model, i)));
+  const std::size_t every = 1 + points.size() / kTellSpread;
+  std::vector<float> distances;
+  distances.reserve(points.size() / every + 1);
+  for (std::size_t i = 0; i < points.size(); i += every)
+    distances.push_back(static_cast<float>(std::abs(points.residual(model, i))));
   const auto middle = distances.begin() + static_cast<std::ptrdiff_t>(distances.size() / 2);
   std::nth_element(distances.begin(), middle, distances.end());
   return kMedianToDeviation * *middle;
@@ -188,8 +191,7 @@ Plane robust_plane(const std::vector<Eigen::Vector3d>& points, const Line& line,
   if (!strips) return heights.plane(model);
   const AgreedStrips agreed = agreed_strips(*strips, allowed);
   if (agreed.shift.most != 0) heights.lower_by(agreed.shift);
-  model = heights.chosen(strip_of, agreed.strips)
-              .narrowed(model, allowed, {1.0, 1.0, 0.6, 0.6, 0.6, 0.6});
+  model = heights.chosen(strip_of, agreed.strips).narrowed(model, allowed, {1.0, 1.0, 1.0, 1.0});
   return heights.plane(model);
 }
 
