@@ -1,5 +1,6 @@
 // arcstart calibrate: files in, files out, exit codes, one line for bad input.
 #include <sys/wait.h>
+#include <unistd.h>
 
 #include <catch2/catch.hpp>
 #include <cstdlib>
@@ -60,7 +61,8 @@ struct SetFolder {
   }
 
   static constexpr int kPoses = 10;
-  const fs::path root = fs::temp_directory_path() / "arcstart_calibrate_command_test";
+  const fs::path root =
+      fs::temp_directory_path() / ("arcstart_calibrate_command_test_" + std::to_string(getpid()));
 };
 
 }  // namespace

@@ -1,5 +1,7 @@
 #include "services/calibration/calibration_set.hpp"
 
+#include <unistd.h>
+
 #include <catch2/catch.hpp>
 #include <filesystem>
 #include <fstream>
@@ -41,7 +43,8 @@ struct SetFolder {
       return what;
     }
   }
-  const fs::path root = fs::temp_directory_path() / "arcstart_calibration_set_test";
+  const fs::path root =
+      fs::temp_directory_path() / ("arcstart_calibration_set_test_" + std::to_string(getpid()));
 };
 
 }  // namespace

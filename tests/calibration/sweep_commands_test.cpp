@@ -1,5 +1,6 @@
 // arcstart time-offset and arcstart check: recordings in, figures out, exit codes.
 #include <sys/wait.h>
+#include <unistd.h>
 
 #include <arcstart/robot_pose_t.hpp>
 #include <arcstart/scan_t.hpp>
@@ -104,7 +105,8 @@ struct Recordings {
     return text.str();
   }
 
-  const fs::path root = fs::temp_directory_path() / "arcstart_sweep_commands_test";
+  const fs::path root =
+      fs::temp_directory_path() / ("arcstart_sweep_commands_test_" + std::to_string(getpid()));
 };
 
 SimulatedSweepsSettings small_sweeps() {
