@@ -84,7 +84,7 @@ void find_ends_that_lead_on(const std::vector<RidgePoint>& points, const Sight& 
   for (const Strand& strand : strands)
     for (const int side : {0, 1}) {
       const float at = place(strand, side), inwards = place(strand, 1 - side) - at;
-      if (std::abs(inwards) >= Strand::kLeastWay) ends[inwards > 0].push_back(at);
+      if (std::abs(inwards) >= sight.least_way) ends[inwards > 0].push_back(at);
     }
   for (FrameVector<float>& places : ends) std::sort(places.begin(), places.end());
   for (Strand& strand : strands)

@@ -14,11 +14,11 @@ namespace arcstart {
 struct Sight {
   bool along_rows = false;  // the stripe runs down the image: one centre a row, not a column
   int first = 0, last = 0;  // columns, or rows
+  float least_way = 15;     // px along the image; what leads less far is a scrap
 };
 
 // A chain, or the part of one between the places where ends of others meet it.
 struct Strand {
-  static constexpr float kLeastWay = 15;  // px along the image; what leads less far is a scrap
   static constexpr float kStep = 5;  // px along the image between strands that follow on each other
 
   Chain points;

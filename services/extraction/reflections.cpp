@@ -69,7 +69,7 @@ void mark_at_corners(const std::vector<RidgePoint>& points, const Sight& sight,
     for (const auto& [junction, leaving] : junctions)
       for (const bool forward : {false, true}) {
         const auto concerns = [&](const Leaving& one) {
-          return one.forward == forward && one.way >= Strand::kLeastWay;
+          return one.forward == forward && one.way >= sight.least_way;
         };
         // What outdoes one that outdoes another outdoes that, too: in which order they are marked
         // does not matter.

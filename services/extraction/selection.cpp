@@ -13,6 +13,7 @@ constexpr int kNear = 4;               // columns within which a path goes on as
 constexpr float kLongestNearJump = 6;  // px
 constexpr int kFar = 100;              // columns over which a line may be found again after a gap
 constexpr float kGapCost = 4;          // to find it again there, at least
+constexpr double kUsualReach = 6.25;   // of a junction, px, where the stripe is not narrow
 constexpr float kSameLine = 4;         // px: nearer points of a column belong to one stripe
 
 // By how much `to` lies off the line through both ends' slopes, px.
@@ -27,12 +28,12 @@ float Selector::leaving_cost(const Candidate& from, const Candidate& to) const {
   const float gap = to.along - from.along;
   const float offset = offset_from_line(from, to);
   if (to.line - from.line <= kNear) {
-    if (offset > kLongestNearJump) return kBreakCost;
+    if (offset > kLongestNearJump) return break_cost_;
     return 0.5f * std::max(0.0f, offset - 0.5f) +
            0.3f * static_cast<float>(to.line - from.line - 1);
   }
   // The same line found again beyond a gap.
-  return std::min(kBreakCost, kGapCost + 0.06f * gap + 6 * offset / (2 + 0.2f * gap));
+  return std::min(break_cost_, kGapCost + 0.06f * gap + 6 * offset / (2 + 0.2f * gap));
 }
 
 FrameVector<int> Selector::best_path() const {
@@ -61,7 +62,7 @@ FrameVector<int> Selector::best_path() const {
           if (const int j = strand_ends[k];
               candidates_[j].line < line - kNear && score[j] - kGapCost > highest)
             consider(j, leaving_cost(candidates_[j], here));
-      if (best >= 0) consider(best, kBreakCost);
+      if (best >= 0) consider(best, break_cost_);
       score[i] = highest + here.worth;
     }
     for (int i = candidates_.line_begin[line]; i < candidates_.line_begin[line + 1]; ++i) {
@@ -175,7 +176,11 @@ void Selector::select(const std::vector<RidgePoint>& points, const std::vector<C
                                              points[i].normal_u * points[i].normal_u);
   selection.along_rows = across_image < 0;
   const int lines = selection.along_rows ? settings.height : settings.width;
-  const Sight sight{selection.along_rows, settings.margin, lines - 1 - settings.margin};
+  Sight sight{selection.along_rows, settings.margin, lines - 1 - settings.margin};
+  // A surface that is few pixels long in a coarse image is no scrap, nor less worth to go to.
+  const double coarse = std::min(1.0, settings.junction_reach / kUsualReach);
+  sight.least_way *= static_cast<float>(coarse);
+  break_cost_ = static_cast<float>(coarse) * kBreakCost;
   FrameVector<Strand> strands =
       cut_at_junctions(points, chains, sight, settings.junction_reach, memory);
   mark_reflections(points, sight, strands);

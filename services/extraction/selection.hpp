@@ -44,7 +44,8 @@ class Selector {
   // a few columns off: its last centres are weak, and tell where the surface ends. A point is worth
   // more the stronger it is, up to the usual strength in the image, and less the more its width
   // differs from the usual; a bright blob gains nothing. Leaving a line costs, whatever the
-  // distance to the next, so that a step in the profile is followed and a short detour is not. A
+  // distance to the next, so that a step in the profile is followed and a short detour is not;
+  // less where the stripe is narrow, for surfaces are fewer columns long in a coarse image. A
   // chain beside a clearly stronger one for most of its length is its reflection and is worth
   // nothing, even where the stronger one has a gap. Nothing is put in where there is no point. The
   // branches lie in the memory given.
@@ -65,6 +66,7 @@ class Selector {
   void add_second_candidates(const SelectionSettings& settings, Selection& selection);
 
   Memory memory_ = heap();
+  float break_cost_ = 0;  // columns of clean stripe
   Candidates candidates_;
   std::vector<int> chosen_;  // of each line, -1 for none
 };

@@ -151,7 +151,7 @@ std::vector<PlainStrand> plain_strands(const Lines& lines, const Sight& sight) {
         for (int end = 0; end < 2; ++end) {
           const float other_at = place(other, end), other_way = place(other, 1 - end) - other_at;
           strand.leads_on[side] |= &other != &strand && std::abs(other_at - at) <= 5 &&
-                                   std::abs(other_way) >= Strand::kLeastWay &&
+                                   std::abs(other_way) >= sight.least_way &&
                                    (other_way > 0) != (way > 0);
         }
     }
@@ -212,7 +212,7 @@ std::vector<bool> plain_reflections(const std::vector<RidgePoint>& points, const
           const Way suspect = way_from(points, sight, strands[a], side_a),
                     stripe = way_from(points, sight, strands[b], side_b);
           if (a == b || suspect.forward != stripe.forward || !strands[a].hangs() || marked[b] ||
-              std::min(suspect.length, stripe.length) < Strand::kLeastWay)
+              std::min(suspect.length, stripe.length) < sight.least_way)
             continue;
           const bool fades =
               stripe.strength > suspect.strength && suspect.fade > 1.5f * stripe.fade;

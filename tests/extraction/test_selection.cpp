@@ -28,11 +28,12 @@ struct Drawing {
   std::vector<Sides> stripe, others;
   bool down = false;
   int width = 800, height = 400;
+  double line = kWidth;  // sigma; px
 
   cv::Mat grey(double noise = 2) const {
     cv::Mat light = darkness(width, height);
     for (const auto* pieces : {&stripe, &others})
-      for (const Sides& s : *pieces) add_stripe(light, s.u0, s.v0, s.u1, s.v1, s.amplitude, kWidth);
+      for (const Sides& s : *pieces) add_stripe(light, s.u0, s.v0, s.u1, s.v1, s.amplitude, line);
     cv::Mat image = expose(light, noise);
     if (down) image = image.t();
     return image;
@@ -166,6 +167,20 @@ TEST_CASE("steps, and pieces of 40 px between them, are kept") {
   int edges = 0;
   for (const StripeCentre& c : stripe.centres) edges += c.end == SegmentEnd::kEdge;
   CHECK(edges == 4);
+}
+
+TEST_CASE("in a coarse image a short surface is followed, not the reflection that leads on") {
+  Drawing drawing;
+  drawing.width = 400, drawing.height = 300, drawing.line = 0.8;
+  drawing.stripe = {{-5, 197, 211, 147, 150}, {212, 148, 252, 169.3, 120}, {285, 114, 405, 80, 60}};
+  drawing.others = {{212, 145, 280, 115, 40}};
+  const Stripe stripe = extract(drawing.grey());
+  const auto on_surface =
+      std::count_if(stripe.centres.begin(), stripe.centres.end(), [&](const StripeCentre& centre) {
+        return centre.chosen && centre.u > 216 &&
+               drawing.stripe[1].distance(centre.u, centre.v) < 1;
+      });
+  CHECK(on_surface > 30);
 }
 
 TEST_CASE("a dim piece of the stripe is kept beside bright ones") {
