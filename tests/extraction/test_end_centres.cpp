@@ -1,4 +1,4 @@
-// Ends of stripes that are wide and white, at steps of the surface.
+// Ends of stripes, most of them wide and white, at steps of the surface.
 #include <algorithm>
 #include <catch2/catch.hpp>
 #include <cmath>
@@ -84,4 +84,17 @@ TEST_CASE("a white stripe has centres up to its blunt end, also where another be
         CHECK(ends.found >= ends.rows - 2);
         CHECK(ends.worst < 1.5);
       }
+}
+
+TEST_CASE("segments end at the border, and in white") {
+  cv::Mat light = darkness(600, 300);
+  add_stripe(light, -20, 150, 620, 150, 150, 2);
+  light.colRange(300, 420) += 300;  // over the whole height: nothing to be seen there
+  const cv::Mat image = expose(light, 2);
+  const Stripe stripe = StripeExtractor(ExtractionSettings{}).extract(view_of(image));
+  std::vector<SegmentEnd> ends;
+  for (const StripeCentre& c : stripe.centres)
+    if (c.chosen && c.end != SegmentEnd::kContinues) ends.push_back(c.end);
+  CHECK(ends == std::vector{SegmentEnd::kBorder, SegmentEnd::kSaturation, SegmentEnd::kSaturation,
+                            SegmentEnd::kBorder});
 }

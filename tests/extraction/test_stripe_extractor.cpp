@@ -209,18 +209,6 @@ TEST_CASE("centres as found are those of the ridge points") {
                          [&](const RidgePoint& p) { return p.u == c.u && p.v == c.v; })));
 }
 
-TEST_CASE("segments end at the border, and in white") {
-  cv::Mat light = darkness(600, 300);
-  add_stripe(light, -20, 150, 620, 150, 150, 2);
-  light.colRange(300, 420) += 300;  // over the whole height: nothing to be seen there
-  const Stripe stripe = extract(expose(light, 2));
-  std::vector<SegmentEnd> ends;
-  for (const StripeCentre& c : stripe.centres)
-    if (c.chosen && c.end != SegmentEnd::kContinues) ends.push_back(c.end);
-  CHECK(ends == std::vector{SegmentEnd::kBorder, SegmentEnd::kSaturation, SegmentEnd::kSaturation,
-                            SegmentEnd::kBorder});
-}
-
 TEST_CASE("images without a stripe give none, and say so") {
   const auto none = [](const cv::Mat& grey) {
     const Stripe stripe = extract(grey);
