@@ -10,9 +10,9 @@ struct ReconstructionSettings {
   // all.
   int keep_every = 15;
   // A centre between two that are kept is kept as well where the stripe departs so far from the
-  // straight line between them; px, 0 for none. The gap of a butt joint narrower than M centres
-  // shows in no other way: 1 for those.
-  double keep_bend_px = 0;
+  // straight line between them; px, 0 for none. A gap narrower than M centres shows in no other
+  // way.
+  double keep_bend_px = 0.5;
   // How long positions are kept for stripes that come late.
   double keep_positions_s = 10;
   // The two positions around a stripe may be so far apart; above it the profile is empty.

@@ -19,6 +19,7 @@ std::vector<SurveyPlace> survey_flat(const ScanCloud& cloud, const Joint& joint,
     if (!station.known || station.along < begin || station.along > end) continue;
     SurveyPlace place;
     place.along = station.along;
+    place.stripe = station.stripe;
     place.position = joint.line.at(place.along);
     for (const FlatSeam::Gap& gap : joint.flat->gaps)
       if (std::abs(gap.along - place.along) < spacing_mm / 2)

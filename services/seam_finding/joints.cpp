@@ -15,6 +15,8 @@ constexpr double kFullReach = 10;  // a plate that reaches so far from the seam 
 // Outside a corner a plate reaches so far, else it is the cut of the other; mm.
 constexpr double kLeastOutside = 22;
 constexpr double kLeastConcave = 0.8;
+constexpr double kInUnder =
+    3.5;  // a plate is seen so far in under the other through a root gap; mm
 constexpr double kLeastExplained = 0.5;
 constexpr double kNoComponent = 0.05;  // of a unit direction that only noise gives a sign
 constexpr double kSamePlane = 2 * kDegree;
@@ -72,6 +74,7 @@ double quantile(std::vector<double>& values, std::size_t part, std::size_t of) {
 }
 
 Beside look_beside(const ScanCloud& cloud, const Joint& joint, int plate, double tolerance) {
+  const bool outside = joint.type == JointType::kOutsideCorner;
   int before = 0, behind = 0;
   std::vector<double> distances, all;
   for (const int i : joint.plates[plate].points) {
@@ -83,10 +86,9 @@ Beside look_beside(const ScanCloud& cloud, const Joint& joint, int plate, double
     distances.push_back(r);
     // What lies farther behind may be the plate going on beyond the other's thickness.
     if (r > joint.plates[plate].contact) continue;
-    const double side = (joint.type == JointType::kOutsideCorner ? -1 : 1) *
-                        joint.plates[1 - plate].plane.signed_distance(point);
+    const double side = (outside ? -1 : 1) * joint.plates[1 - plate].plane.signed_distance(point);
     before += side > tolerance;
-    behind += side < -tolerance;
+    behind += side < -(outside ? tolerance : std::max(tolerance, kInUnder));
   }
   Beside beside;
   if (before > 0) beside.before = static_cast<double>(before) / (before + behind);

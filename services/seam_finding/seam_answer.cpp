@@ -8,6 +8,7 @@
 #include "services/seam_finding/flat_joints.hpp"
 #include "services/seam_finding/flat_stations.hpp"
 #include "services/seam_finding/flat_survey.hpp"
+#include "services/seam_finding/root_gap.hpp"
 
 namespace arcstart {
 namespace {
@@ -61,10 +62,32 @@ std::array<SeamEnd, 2> ends_of(const ScanCloud& scan, const Joint& joint, const 
   return ends;
 }
 
+// Of a tee, an inside corner and a lap; those of butt joints and grooves come with their stations.
+void set_root_gaps(const ScanCloud& scan, const Joint& joint, std::vector<SurveyPlace>& stations) {
+  std::array<JointPlate, 2> plates = joint.plates;
+  int standing = -1;
+  if (joint.type == JointType::kLap) {
+    // The upper plate's cut, square to the lower plate.
+    const JointPlate& lower = plates[joint.flat->lower];
+    standing = 1 - joint.flat->lower;
+    plates[standing] = JointPlate{};
+    plates[standing].plane = {lower.away, -lower.away.dot(joint.line.point)};
+  } else if (joint.type != JointType::kTee && joint.type != JointType::kCorner) {
+    return;
+  }
+  const auto gaps = root_gaps(scan, plates, joint.line, standing);
+  for (SurveyPlace& place : stations)
+    if (place.stripe >= 0 && !place.tack && gaps[place.stripe])
+      place.gap = gaps[place.stripe]->width, place.gap_deviation = gaps[place.stripe]->deviation;
+}
+
 std::vector<SurveyPlace> survey_of(const ScanCloud& scan, const Joint& joint, double start,
                                    double end, const Scales& scales) {
-  if (!joint.flat) return survey_seam(scan, joint.plates, joint.line, start, end, scales.spacing);
-  return survey_flat(scan, joint, joint.course.stations, start, end, scales.spacing);
+  auto stations = joint.flat
+                      ? survey_flat(scan, joint, joint.course.stations, start, end, scales.spacing)
+                      : survey_seam(scan, joint.plates, joint.line, start, end, scales.spacing);
+  set_root_gaps(scan, joint, stations);
+  return stations;
 }
 
 // Where it starts and ends, and how sure that is.
@@ -151,7 +174,10 @@ void answer(SeamResult& result, const ScanCloud& scan, const Joint& joint, const
                           {one_plane ? 0 : settings.torch_work_angle_deg * kDegree,
                            settings.torch_travel_angle_deg * kDegree, settings.approach_mm});
   if (joint.flat) result.remark += flat_in_words(joint);
-  if (result.gap < 0) result.remark += "gap not determined; ";
+  if (result.gap < 0)
+    result.remark += "gap not determined; ";
+  else if (result.gap < 2 * result.gap_deviation)
+    result.remark += "the gap cannot be told from none; ";
 }
 
 }  // namespace arcstart

@@ -90,6 +90,7 @@ std::vector<SurveyPlace> survey_seam(const ScanCloud& cloud,
   for (const auto& [stripe, seen] : by_stripe) {
     SurveyPlace place;
     place.along = seen.place();
+    if (cloud.organised()) place.stripe = stripe;
     place.position = line.at(place.along);
     place.tack = seen.bead >= 2;
     if (seen.count[0] >= kLeastPoints && seen.count[1] >= kLeastPoints) {

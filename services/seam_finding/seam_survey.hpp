@@ -10,6 +10,7 @@ namespace arcstart {
 
 struct SurveyPlace {
   double along = 0;          // on the seam's line; mm
+  int stripe = -1;           // index, -1 in a cloud without stripes
   Eigen::Vector3d position;  // of the seam there, in base; mm
   double residual = -1;      // from the line; mm, -1 where a plate was not seen beside the seam
   bool tack = false;         // metal stands before both plates there

@@ -101,7 +101,7 @@ TEST_CASE("thickness, gap and groove are measured") {
   CHECK_THAT(lapped.remark, Catch::Contains(fmt::format("{:.1f} mm thick", thickness)) ||
                                 Catch::Contains(fmt::format("{:.1f} mm thick", thickness + 0.1)) ||
                                 Catch::Contains(fmt::format("{:.1f} mm thick", thickness - 0.1)));
-  CHECK(lapped.gap == -1);
+  CHECK(lapped.gap == -1);  // between the centres kept
 
   const SeamResult butted = find(make_scene({.joint = "butt"}, 2), "butt", 2);
   REQUIRE(found(butted));
@@ -116,6 +116,28 @@ TEST_CASE("thickness, gap and groove are measured") {
   REQUIRE(found(v));
   const double depth = 2 * groove.boxes[0].half_size.z();
   CHECK(v.gap == Approx(2 + 2 * depth * std::tan(30 * M_PI / 180)).margin(0.7));
+}
+
+TEST_CASE("a tee's and a lap's root gap is measured by station, and is no lack of a joint") {
+  struct Row {
+    std::string joint;
+    double gap, tilt_deg;
+  };
+  const auto row = GENERATE(Row{"tee", 1, 90}, Row{"tee", 2, 75}, Row{"tee", 3, 90},
+                            Row{"tee", 1.5, 105}, Row{"lap", 1.5, 90}, Row{"lap", 3, 90});
+  INFO(fmt::format("{}, {} mm, {} deg", row.joint, row.gap, row.tilt_deg));
+  const Scene scene =
+      make_scene({.joint = row.joint, .tilt_deg = row.tilt_deg, .root_gap = row.gap}, 4);
+  const SeamResult result = find(scene, row.joint, 4, {.bends = true});
+  INFO(result.reason << result.remark);
+  REQUIRE(found(result));
+  CHECK((result.start - scene.start).norm() < 1);
+  CHECK(result.gap == Approx(row.gap * std::sin(row.tilt_deg * M_PI / 180)).margin(0.25));
+  CHECK(result.gap_deviation > 0.05);
+  CHECK(result.gap_deviation < 0.5);
+  int measured = 0;
+  for (const SurveyPlace& place : result.stations) measured += place.gap >= 0;
+  CHECK(2 * measured > static_cast<int>(result.stations.size()));
 }
 
 TEST_CASE("where there is no joint none is found, whatever is asked for") {

@@ -135,6 +135,9 @@ SyntheticScan make_scan(const Scene& scene, const ScanChoice& choice, std::uint6
     const auto joined = [](const Lit& a, const Lit& b) {
       return (a.point - b.point).norm() <= 1.5;
     };
+    const auto turns = [](const Lit& before, const Lit& at, const Lit& after) {
+      return angle_between(at.point - before.point, after.point - at.point) > 20 * kDegree;
+    };
     std::vector<std::vector<Lit>> segments;
     std::vector<int> first_rays;
     for (int i = -kHalf; i < kHalf; ++i) {
@@ -170,7 +173,9 @@ SyntheticScan make_scan(const Scene& scene, const ScanChoice& choice, std::uint6
       segment.back() = light_end(segment[segment.size() - 2], segment.back(), last, last + 1);
       for (std::size_t i = 0; i < segment.size(); ++i) {
         const bool end = i == 0 || i + 1 == segment.size();
-        if (!end && i % static_cast<std::size_t>(choice.thin) != 0) continue;
+        const bool kept = end || i % static_cast<std::size_t>(choice.thin) == 0 ||
+                          (choice.bends && turns(segment[i - 1], segment[i], segment[i + 1]));
+        if (!kept) continue;
         // A centre that is off across the stripe lies elsewhere in the laser's plane.
         const Eigen::Vector3d beam = (segment[i].point - laser).normalized();
         const bool outlier = random.between(0, 1) < choice.outliers;

@@ -42,7 +42,8 @@ struct SceneChoice {
   bool box_on_base = false;  // small, on the base plate's open side, near the start or over it
   double base_overhang =
       0;  // the base plate begins so much earlier (negative: later) than the upright; mm
-  double tilt_deg = 90;     // between upright and base
+  double tilt_deg = 90;  // between upright and base
+  double root_gap = 0;   // of a tee under the upright, along it, of a lap under the upper plate; mm
   bool lone_plate = false;  // no upright
 };
 Scene make_scene(const SceneChoice& choice, std::uint64_t seed);
@@ -50,6 +51,7 @@ Scene make_scene(const SceneChoice& choice, std::uint64_t seed);
 struct ScanChoice {
   double pitch = 3.6;  // tool's way between stripes; mm
   int thin = 15;       // M: every M-th centre of a segment, and its last
+  bool bends = false;  // also those at which it turns by more than 20 deg
   double noise =
       0.1;  // of each point along the laser's beam, as an error across the stripe moves it; mm
   double end_noise = 0.2;       // of a segment's end along the stripe; px

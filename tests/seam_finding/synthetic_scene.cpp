@@ -25,7 +25,7 @@ void cut(Box& box, const Eigen::Isometry3d& frame, const Eigen::Vector3d& point,
 
 // The work's frame: x along the seam, which runs in the first plate's top; the open side is +y.
 struct Sizes {
-  double length, width, height, base, thickness;
+  double length, width, height, base, thickness, gap;
 };
 void add_other_joint(Scene& scene, const std::string& joint, const Eigen::Isometry3d& work,
                      const Sizes& s) {
@@ -36,7 +36,7 @@ void add_other_joint(Scene& scene, const std::string& joint, const Eigen::Isomet
   if (joint == "lap") {
     scene.boxes.push_back(standing_box(work, at(-5, -s.width / 2, 0), {s.length, s.width, s.base}));
     scene.boxes.push_back(
-        standing_box(top, at(0, -s.height, 0), {s.length, s.height, s.thickness}));
+        standing_box(top, at(0, -s.height, s.gap), {s.length, s.height, s.thickness}));
   } else if (joint == "outside_corner") {
     top = top * Eigen::Translation3d(0, 0, s.height);
     Box flat = standing_box(top, at(-5, -s.width / 2, -s.base), {s.length, s.width / 2, s.base});
@@ -81,7 +81,8 @@ Scene make_scene(const SceneChoice& choice, std::uint64_t seed) {
          Eigen::AngleAxisd(random.between(-3, 3) * kDegree, Eigen::Vector3d::UnitY());
   work.translation().z() += 2;  // what is tilted would dip into the table
   if (choice.workpiece && choice.joint != "tee") {
-    add_other_joint(scene, choice.joint, work, {length, width, height, base, thickness});
+    add_other_joint(scene, choice.joint, work,
+                    {length, width, height, base, thickness, choice.root_gap});
   } else if (choice.workpiece) {
     const double before = choice.base_overhang;
     scene.boxes.push_back(
@@ -92,7 +93,8 @@ Scene make_scene(const SceneChoice& choice, std::uint64_t seed) {
           work * Eigen::Translation3d(0, 0, base) *
           Eigen::Isometry3d(
               Eigen::AngleAxisd((90 - choice.tilt_deg) * kDegree * -1, Eigen::Vector3d::UnitX()));
-      scene.boxes.push_back(standing_box(foot, {0, -thickness, 0}, {length, thickness, height}));
+      scene.boxes.push_back(
+          standing_box(foot, {0, -thickness, choice.root_gap}, {length, thickness, height}));
       const double first = std::max(0.0, -before), last = length + std::min(0.0, before);
       scene.start = work * Eigen::Vector3d(first, 0, base);
       scene.end = work * Eigen::Vector3d(last, 0, base);
