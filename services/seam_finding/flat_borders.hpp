@@ -13,6 +13,8 @@ namespace arcstart {
 struct FlatBorders {
   std::array<std::optional<BorderFit>, 2> plates;  // where each ends, in its own plane
   std::array<std::optional<double>, 2> slants;     // of a cut that falls away: from the normal; rad
+  // Of a narrow gap: both borders are told by all stripes together better than by any alone.
+  bool together = false;
 };
 
 // planes: of the plates. near_mm: how far a point of a plate lies from its plane. pitch: between

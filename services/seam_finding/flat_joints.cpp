@@ -13,17 +13,18 @@
 namespace arcstart {
 namespace {
 
-constexpr double kThrough = 0.6;        // share of the sections in which a seam shows
-constexpr double kFullReach = 10;       // as in joints.cpp; mm
-constexpr double kWiderThanHigh = 1.5;  // the upper plate of a lap
-constexpr double kBeside = 60;          // a plate's plane is fitted to what lies so near; mm
-constexpr double kNearNoise = 4;        // of a point on a plate, over the noise
-constexpr double kLeastNear = 0.15;     // mm
-constexpr double kEndDeviation = 0.25;  // of a stripe's end at a gap, standard; mm
-constexpr double kUnsteady = 0.4;       // deviation of a seam across; mm
-constexpr double kLeastReach = 15;      // of a plate away from the seam; mm
-constexpr double kHiddenFoot = 0.5;     // of a lap's score: whoever scans one looks at its foot
-constexpr double kShadow = 2;           // beside a step, over its height
+constexpr double kThrough = 0.6;          // share of the sections in which a seam shows
+constexpr double kFullReach = 10;         // as in joints.cpp; mm
+constexpr double kWiderThanHigh = 1.5;    // the upper plate of a lap
+constexpr double kBeside = 60;            // a plate's plane is fitted to what lies so near; mm
+constexpr double kNearNoise = 4;          // of a point on a plate, over the noise
+constexpr double kLeastNear = 0.15;       // mm
+constexpr double kEndDeviation = 0.25;    // of a stripe's end at a gap, standard; mm
+constexpr double kNarrowDeviation = 0.1;  // of a gap that no stripe tells alone; mm
+constexpr double kUnsteady = 0.4;         // deviation of a seam across; mm
+constexpr double kLeastReach = 15;        // of a plate away from the seam; mm
+constexpr double kHiddenFoot = 0.5;       // of a lap's score: whoever scans one looks at its foot
+constexpr double kShadow = 2;             // beside a step, over its height
 
 // A plate's points on its own side of its border, and the plane through those near it.
 JointPlate plate_of(const ScanCloud& cloud, const PassageLine& candidate, const Face& face,
@@ -129,6 +130,8 @@ void set_type(const ScanCloud& cloud, const PassageLine& candidate, const FlatSe
     return;
   }
   flat.borders = {on_plane(frame, first, planes[0]), on_plane(frame, second, planes[1])};
+  flat.narrow = borders.together;
+  flat.gap_deviation = std::hypot(kNarrowDeviation, std::sqrt(first.variance + second.variance));
   const Line low = on_plane(frame, middle, planes[0]), high = on_plane(frame, middle, planes[1]);
   joint.line = {(low.point + high.point) / 2, (low.direction + high.direction).normalized()};
   for (const auto& slant : borders.slants)
@@ -190,6 +193,7 @@ void measure_gaps(const ScanCloud& cloud, const PassageLine& candidate, Joint& j
     }
     flat.gaps.push_back({joint.line.along((a + b) / 2), seen});
   }
+  if (flat.narrow) return;
   // Narrow gaps show where a point happens to lie in them: their stripes err alike.
   const double step = thinned > 0 ? steps / thinned : 0;
   flat.gap_deviation = std::sqrt(2.0) * std::hypot(kEndDeviation, step / std::sqrt(12.0));

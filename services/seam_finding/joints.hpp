@@ -41,6 +41,7 @@ struct FlatSeam {
   };
   std::vector<Gap> gaps;     // of a butt joint the gap, of a groove its width at the top
   double gap_deviation = 0;  // standard, of each; mm
+  bool narrow = false;       // the gap: all stripes together tell its width, none alone
 };
 
 struct Joint {

@@ -111,6 +111,19 @@ TEST_CASE("thickness, gap and groove are measured") {
   for (const SurveyPlace& place : butted.stations) measured += place.gap >= 0;
   CHECK(2 * measured > static_cast<int>(butted.stations.size()));
 
+  // With the stripes' bends kept the gap is known far better than points lie apart.
+  for (int seed = 1; seed <= 5; ++seed) {
+    const Scene butt = make_scene({.joint = "butt"}, static_cast<std::uint64_t>(seed));
+    const SeamResult sharp = find(butt, "butt", seed, {.bends = true});
+    INFO(seed << sharp.reason);
+    REQUIRE(found(sharp));
+    const Eigen::Vector3d direction = (butt.end - butt.start).normalized();
+    const Eigen::Vector3d error = sharp.start - butt.start;
+    CHECK((error - error.dot(direction) * direction).norm() < 0.2);
+    CHECK(sharp.gap == Approx(1).margin(0.2));
+    CHECK(sharp.gap_deviation < 0.2);
+  }
+
   const Scene groove = make_scene({.joint = "v"}, 2);
   const SeamResult v = find(groove, "v", 2);
   REQUIRE(found(v));
