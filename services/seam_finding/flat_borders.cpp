@@ -147,12 +147,17 @@ FlatBorders borders_of(const ScanCloud& cloud, const std::vector<Passage>& passa
         const Eigen::Vector3d p = frame.of(cloud.points[i]);
         ends_on_cut.push_back({p.x(), p.y(), 0, kCutDeviation});
       }
+      // One alone may lie on the other plate's cut, across the gap.
+      const auto below = [&](int i) {
+        return planes[plate].signed_distance(cloud.points[i]) <= -2 * near_mm;
+      };
+      if (std::count_if(run.begin(), run.end(), below) < 2) continue;
       for (const int i : run) {
-        const double height = planes[plate].signed_distance(cloud.points[i]);
-        if (height > -2 * near_mm) continue;
+        if (!below(i)) continue;
         const Eigen::Vector3d p = frame.of(cloud.points[i]);
-        cut.push_back({p.x(), p.y(), height, kCutDeviation});
-        deepest = std::min(deepest, height);
+        cut.push_back(
+            {p.x(), p.y(), planes[plate].signed_distance(cloud.points[i]), kCutDeviation});
+        deepest = std::min(deepest, cut.back().height);
       }
     }
     if (cut.size() >= kLeastCut && -deepest > kLeastDepth) {

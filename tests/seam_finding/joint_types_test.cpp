@@ -112,11 +112,13 @@ TEST_CASE("thickness, gap and groove are measured") {
   CHECK(2 * measured > static_cast<int>(butted.stations.size()));
 
   // With the stripes' bends kept the gap is known far better than points lie apart.
-  for (int seed = 1; seed <= 5; ++seed) {
+  // In scan 46 some stripes are joined across the gap.
+  for (const int seed : {1, 2, 3, 4, 5, 46}) {
     const Scene butt = make_scene({.joint = "butt"}, static_cast<std::uint64_t>(seed));
-    const SeamResult sharp = find(butt, "butt", seed, {.bends = true});
+    const SeamResult sharp = find(butt, "any", seed, {.bends = true});
     INFO(seed << sharp.reason);
     REQUIRE(found(sharp));
+    CHECK(sharp.joint_type == "butt");
     const Eigen::Vector3d direction = (butt.end - butt.start).normalized();
     const Eigen::Vector3d error = sharp.start - butt.start;
     CHECK((error - error.dot(direction) * direction).norm() < 0.2);
