@@ -30,12 +30,15 @@ double running_on(const ScanCloud& cloud, const JointPlate& plate, double tolera
 std::array<Stations, 2> stations_by_border(const ScanCloud& cloud, const Joint& joint,
                                            const CourseSearch& search) {
   std::array<Stations, 2> stations;
+  // Up to its border what lies on a plate is its own: no other plate's face begins there.
+  CourseSearch to_border = search;
+  to_border.tolerance = 0;
   for (int j = 0; j < 2; ++j) {
     const Line& border = joint.flat->borders[j];
     // Of a lap the other plate lies at another height, where stripes cross elsewhere.
     std::array<JointPlate, 2> plates = joint.plates;
     plates[1 - j].points.clear();
-    stations[j] = stations_along(cloud, plates, border, search);
+    stations[j] = stations_along(cloud, plates, border, to_border);
     for (Station& station : stations[j].list)
       station.along = joint.line.along(border.at(station.along));
     if (cloud.organised())
