@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <utility>
 #include <vector>
 
@@ -53,6 +54,16 @@ std::optional<Enclosed> enclose(const Stations& stations, int plate, double with
     return enclosed;
   }
   return std::nullopt;
+}
+
+// The first stripe beyond a place that does not show the plate, counted outward; infinite for none.
+double first_without(const Stations& stations, int plate, double beyond, double outward) {
+  double first = std::numeric_limits<double>::infinity();
+  for (const Station& station : stations.list)
+    if (station.known && station.nearest[plate] > stations.near[plate] &&
+        outward * station.along > beyond)
+      first = std::min(first, outward * station.along);
+  return first;
 }
 
 // How stripes cross a plate: mm outward along the seam for each mm away from it.
@@ -147,9 +158,17 @@ SeamEnd find_flat_end(const ScanCloud& cloud, const Joint& joint,
       plate_end = {outward * edge->along - half, outward * edge->along + half, true};
       edges.push_back(*edge);
     } else {
-      narrow(plate_end,
-             plate_extent(cloud, stripes, side, border.along(joint.line.at(end.along)), search),
-             [&](double place) { return outward * joint.line.along(border.at(outward * place)); });
+      const auto on_seam = [&](double place) {
+        return outward * joint.line.along(border.at(outward * place));
+      };
+      const PlateExtent extent =
+          plate_extent(cloud, stripes, side, border.along(joint.line.at(end.along)), search);
+      // A stripe may miss the plate beside the border and show it farther off.
+      if (std::isfinite(extent.on) && on_seam(extent.on) > plate_end.high) {
+        const double next = first_without(stations[j], j, on_seam(extent.on), outward);
+        if (std::isfinite(next)) plate_end.high = next;
+      }
+      narrow(plate_end, extent, on_seam);
     }
     ends.push_back(plate_end);
   }
