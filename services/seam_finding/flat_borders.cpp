@@ -16,7 +16,7 @@ constexpr double kCutDeviation = 0.1;   // of a point on a cut across; mm
 constexpr double kLeastDepth = 1.5;     // of a cut by which its slant is known; mm
 constexpr std::size_t kLeastCut = 6;    // points on a cut
 constexpr double kOffPlate = 1.25;      // a cut's points over what lies on the plates
-constexpr double kNear = 4;             // deviations of a point from its plate, at most
+constexpr double kNear = 4;             // `near_mm`, in deviations of a point from its plate
 constexpr double kWidest = 4;           // of a narrow gap; mm
 constexpr double kBeside = 4;           // it is sought among what lies so near; mm
 constexpr double kSlanting = 0.2;       // a cut from the plate's normal; rad
@@ -130,6 +130,29 @@ std::pair<std::vector<SeenPlace>, double> seen_near(const ScanCloud& cloud,
   return {places, down > 0 ? across / down : 0};
 }
 
+// Both borders by all stripes together, where the plates lie at one level and are seen into
+// between.
+std::optional<std::array<BorderFit, 2>> narrow_borders(const ScanCloud& cloud,
+                                                       const std::vector<Passage>& passages,
+                                                       const PlateFrame& frame,
+                                                       const std::array<Plane, 2>& planes,
+                                                       const BorderFit& first,
+                                                       const BorderFit& second, double near_mm) {
+  NarrowGapSearch search;
+  search.middle = first.middle;
+  search.across = (first.at_middle + second.across_at(first.middle)) / 2;
+  search.slope = (first.slope + second.slope) / 2;
+  search.noise = std::max(kLeastNoise, near_mm / kNear);
+  const Eigen::Vector3d at =
+      frame.origin + search.middle * frame.along + search.across * frame.across;
+  if (std::abs(planes[0].signed_distance(at) - planes[1].signed_distance(at)) > kOneLevel)
+    return std::nullopt;
+  const auto [places, sight] = seen_near(cloud, passages, frame, planes, search);
+  search.sight = sight;
+  if (!(std::abs(sight) > kSteepest)) return std::nullopt;
+  return fit_narrow_gap(places, search);
+}
+
 }  // namespace
 
 FlatBorders borders_of(const ScanCloud& cloud, const std::vector<Passage>& passages,
@@ -177,19 +200,7 @@ FlatBorders borders_of(const ScanCloud& cloud, const std::vector<Passage>& passa
   if (borders.slants[0] || borders.slants[1] || !first || !second || !cloud.organised() ||
       !run_through(cloud, passages))
     return borders;
-  NarrowGapSearch search;
-  search.middle = first->middle;
-  search.across = (first->at_middle + second->across_at(first->middle)) / 2;
-  search.slope = (first->slope + second->slope) / 2;
-  search.noise = std::max(kLeastNoise, near_mm / kNear);
-  const Eigen::Vector3d at =
-      frame.origin + search.middle * frame.along + search.across * frame.across;
-  if (std::abs(planes[0].signed_distance(at) - planes[1].signed_distance(at)) > kOneLevel)
-    return borders;
-  const auto [places, sight] = seen_near(cloud, passages, frame, planes, search);
-  search.sight = sight;
-  if (!(std::abs(sight) > kSteepest)) return borders;
-  const auto narrow = fit_narrow_gap(places, search);
+  const auto narrow = narrow_borders(cloud, passages, frame, planes, *first, *second, near_mm);
   if (!narrow) return borders;
   borders.plates = {(*narrow)[0], (*narrow)[1]};
   borders.together = true;

@@ -19,8 +19,8 @@ constexpr double kLeastWidth = 0.1;      // mm
 constexpr double kMostSlope = 0.1;       // off the joint's
 constexpr double kSlopes[] = {-0.02, -0.007, 0.007, 0.02}, kWidths[] = {0.6, 1, 1.8};
 constexpr double kRounding = 0.4;  // standard deviation; mm
-constexpr double kMostLeft =
-    0.5;  // by the fit, of what the heights differ from a plate without a gap
+// By the fit, of what the heights differ from a plate without a gap.
+constexpr double kMostLeft = 0.5;
 
 // Place of the farther plate's edge at the middle, slope, width, rounding.
 using Parameters = Eigen::Vector4d;
@@ -64,14 +64,14 @@ class Fit {
     return rounded_sawtooth(x_of(place, p), p[2], p[3], steepness_);
   }
   double weight(const SeenPlace& place, const Parameters& p) const {
-    const double z = (place.height - height(place, p)) / (scale_);
+    const double z = (place.height - height(place, p)) / scale_;
     return std::abs(z) < 1 ? (1 - z * z) * (1 - z * z) : 0;
   }
   // Tukey's, each place at most 1.
   double cost(const Parameters& p) const {
     double sum = 0;
     for (const SeenPlace& place : places_) {
-      const double z = std::min(1.0, std::abs(place.height - height(place, p)) / (scale_));
+      const double z = std::min(1.0, std::abs(place.height - height(place, p)) / scale_);
       sum += 1 - std::pow(1 - z * z, 3);
     }
     return sum;
@@ -150,7 +150,7 @@ std::optional<std::array<BorderFit, 2>> fit_narrow_gap(const std::vector<SeenPla
                                                        const NarrowGapSearch& search) {
   const Fit fit(places, search);
   if (!fit.shows_a_gap()) return std::nullopt;
-  Parameters best;
+  Parameters best = Parameters::Zero();
   double least = std::numeric_limits<double>::infinity();
   for (const double slope : kSlopes)
     for (const double width : kWidths) {

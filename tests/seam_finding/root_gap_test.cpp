@@ -39,19 +39,18 @@ struct Centre {
   int plate = 0;
 };
 
-// Smoothing moves a centre along its line of sight alone.
+// Smoothing moves a centre along its line of sight alone. What is parted ends in straight lines.
 std::vector<Centre> smoothed(const std::vector<Centre>& centres, const Drawing& drawing) {
   std::vector<Centre> result = centres;
+  if (drawing.parted) return result;
   const int reach = static_cast<int>(4 * drawing.rounding);
   for (int i = reach; i + reach < static_cast<int>(centres.size()); ++i) {
     double sum = 0, weights = 0;
     for (int k = i - reach; k <= i + reach; ++k) {
-      if (drawing.parted && centres[k].plate != centres[i].plate) continue;
       const double off = (k - i) / drawing.rounding, weight = std::exp(-off * off / 2);
       sum += weight * (centres[k].depth - centres[i].depth), weights += weight;
     }
-    // What is parted ends in straight lines.
-    if (!drawing.parted) result[i].depth += sum / weights;
+    result[i].depth += sum / weights;
   }
   return result;
 }
@@ -102,9 +101,9 @@ struct Measured {
   double mean = 0, deviation = 0, farthest = 0;  // mm; farthest: a stripe's from the truth
 };
 
-Measured measure(const Drawing& drawing, int standing = -1) {
+Measured measure(const Drawing& drawing) {
   const Corner corner = draw(drawing);
-  const auto gaps = root_gaps(corner.cloud, corner.plates, corner.line, standing);
+  const auto gaps = root_gaps(corner.cloud, corner.plates, corner.line);
   REQUIRE(gaps.size() == corner.cloud.stripes.size());
   const double truth = drawing.gap * std::sin(drawing.upright_deg * M_PI / 180);
   Measured measured;
