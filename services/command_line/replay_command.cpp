@@ -5,6 +5,7 @@
 #include <iostream>
 #include <memory>
 
+#include "services/command_line/answer_file.hpp"
 #include "services/command_line/replay.hpp"
 #include "services/command_line/scan_pictures.hpp"
 #include "services/command_line/seam_json.hpp"
@@ -16,7 +17,7 @@ namespace {
 struct Options {
   std::vector<std::string> paths;
   ReplayOptions replay;
-  std::string pictures;
+  std::string pictures, seams;
   bool json = false, print_channels = false, print_settings = false;
 };
 
@@ -86,6 +87,7 @@ int run(Options& options) {
   const ReplayResult result = replay_recordings(options.paths, options.replay);
   progress.clear();
   print(result, options.json);
+  if (!options.seams.empty()) write_answers(options.seams, result.seams);
   if (pictures) std::cerr << options.pictures << ": " << pictures->write() << "\n";
   return result.is_good() ? 0 : 1;
 }
@@ -109,6 +111,10 @@ void add_replay_command(CLI::App& parent, int& exit_code) {
                    "Folder for what a person can look at of the last workpiece scan: cloud.pcd, "
                    "cloud.ply, cloud.png and stripe.png")
       ->check(CLI::ExistingDirectory);
+  command->add_option(
+      "--seams", options->seams,
+      "File for the encoded seam_t of every scan answered, in order, to compare two "
+      "builds by: of each its length (4 bytes, little-endian) and its bytes");
   command->add_option("--background", options->replay.background,
                       "Recording of a background scan, to be used in place of those in LOG");
   command->add_option("--sensor", options->replay.sensor,

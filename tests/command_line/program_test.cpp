@@ -6,6 +6,7 @@
 #include <cstdlib>
 #include <filesystem>
 #include <fstream>
+#include <iterator>
 #include <nlohmann/json.hpp>
 #include <sstream>
 
@@ -100,6 +101,43 @@ TEST_CASE("arcstart replay prints each seam, and its exit code is its verdict") 
   const Outcome unanswered = run(folder, "replay cut.lcm");
   CHECK(unanswered.code == 1);
   CHECK_THAT(unanswered.err, Contains("no answer: the recording ends within it"));
+}
+
+TEST_CASE("arcstart replay writes the encoded answers for a comparison") {
+  const Folder folder;
+  Recorded recorded;
+  recorded.profiles = true;
+  folder.save("good.lcm", record(recorded));
+  CHECK(run(folder, "replay good.lcm --seams seams").code == 0);
+  std::ifstream file(folder / "seams", std::ios::binary);
+  const std::vector<unsigned char> bytes((std::istreambuf_iterator<char>(file)), {});
+  std::vector<std::int64_t> scans;
+  for (std::size_t at = 0; at < bytes.size();) {
+    REQUIRE(bytes.size() - at > 4);
+    std::uint32_t size = 0;
+    for (int i = 3; i >= 0; --i) size = size << 8 | bytes[at + static_cast<std::size_t>(i)];
+    at += 4;
+    REQUIRE(bytes.size() - at >= size);
+    seam_t seam;
+    REQUIRE(seam.decode(&bytes[at], 0, static_cast<int>(size)) == static_cast<int>(size));
+    scans.push_back(seam.scan_id);
+    at += size;
+  }
+  CHECK(scans == std::vector<std::int64_t>{kBackgroundScan, kWorkpieceScan});
+
+  recorded.background = false;
+  folder.save("workpiece.lcm", record(recorded));
+  CHECK(run(folder, "replay workpiece.lcm --seams refused").code == 1);
+  CHECK(std::filesystem::file_size(folder / "refused") > 4);
+
+  // Opens, and is full.
+  for (const std::string path : {"/dev/full", "no/such/folder/seams", "."}) {
+    const Outcome outcome = run(folder, "replay good.lcm --seams " + path);
+    INFO(path << ": " << outcome.err);
+    CHECK(outcome.code == 2);
+    CHECK(outcome.err.ends_with("\n"));
+    CHECK_THAT(outcome.err, Contains("replay: " + path + ": cannot be written: "));
+  }
 }
 
 TEST_CASE("what arcstart replay cannot read ends with 2 and one line") {
