@@ -3,9 +3,9 @@
 #include <spdlog/spdlog.h>
 
 #include "common/calibration_message.hpp"
-#include "services/calibration/calibration_file.hpp"
+#include "services/calibration/files/calibration_file.hpp"
 
-namespace arcstart {
+namespace arcstart::calibration {
 namespace {
 
 constexpr std::int64_t kPeriod = 1'000'000;  // us
@@ -69,4 +69,4 @@ Health CalibrationApp::health() const {
   return health;
 }
 
-}  // namespace arcstart
+}  // namespace arcstart::calibration

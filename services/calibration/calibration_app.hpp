@@ -10,9 +10,9 @@
 #include "common/bus.hpp"
 #include "common/service.hpp"
 #include "services/calibration/calibration_settings.hpp"
-#include "services/calibration/capture_desk.hpp"
+#include "services/calibration/capture/capture_session.hpp"
 
-namespace arcstart {
+namespace arcstart::calibration {
 
 // Gives <SENSOR>_CALIBRATION once a second, byte for byte the same, and at once when its file has
 // changed. Without a usable file it waits for one. Where a plate is configured, a calibration can
@@ -46,4 +46,4 @@ class CalibrationApp : public App {
   std::unique_ptr<CaptureDesk> desk_;           // none where no plate is configured
 };
 
-}  // namespace arcstart
+}  // namespace arcstart::calibration

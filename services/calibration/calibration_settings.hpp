@@ -4,9 +4,9 @@
 #include <string>
 
 #include "common/configuration.hpp"
-#include "services/calibration/calibration_limits.hpp"
+#include "services/calibration/solve/calibration_limits.hpp"
 
-namespace arcstart {
+namespace arcstart::calibration {
 
 struct CalibrationSettings {
   std::string file = "calibration.yaml";  // the cell's calibration; looked at every second, so that
@@ -38,4 +38,4 @@ struct CalibrationSettings {
   }
 };
 
-}  // namespace arcstart
+}  // namespace arcstart::calibration

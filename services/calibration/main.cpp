@@ -3,6 +3,7 @@
 
 int main(int argc, char** argv) {
   using namespace arcstart;
+  using namespace arcstart::calibration;
   return run_service(
       argc, argv, {"calibration", "publishes the cell's calibration, and makes one from a plate"},
       [](ServiceContext& context) -> std::unique_ptr<App> {

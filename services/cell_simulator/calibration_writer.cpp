@@ -12,7 +12,7 @@
 
 #include "common/configuration.hpp"
 
-namespace arcstart {
+namespace arcstart::cell_simulator {
 namespace {
 
 constexpr const char* kMade = "made: ";
@@ -89,4 +89,4 @@ bool write_calibration(const std::string& path, const TrueCalibration& calibrati
                               "): set calibration_file");
 }
 
-}  // namespace arcstart
+}  // namespace arcstart::cell_simulator

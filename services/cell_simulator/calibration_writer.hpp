@@ -5,9 +5,9 @@
 #include <stdexcept>
 #include <string>
 
-#include "services/cell_simulator/sensor_camera.hpp"
+#include "services/cell_simulator/image/sensor_camera.hpp"
 
-namespace arcstart {
+namespace arcstart::cell_simulator {
 
 class CalibrationWriteError : public std::runtime_error {
  public:
@@ -29,4 +29,4 @@ std::string calibration_text(const TrueCalibration& calibration, std::int64_t ma
 bool write_calibration(const std::string& path, const TrueCalibration& calibration,
                        std::int64_t made);
 
-}  // namespace arcstart
+}  // namespace arcstart::cell_simulator

@@ -5,7 +5,7 @@
 #include <atomic>
 #include <cstdint>
 
-namespace arcstart {
+namespace arcstart::cell_simulator {
 
 struct CellFaultSettings {
   int scan = 0;  // the scan since start that has the faults, 1 for the first; 0: none has
@@ -55,4 +55,4 @@ class CellFaults {
   std::atomic<std::int64_t> from_{kNever}, until_{kNever};
 };
 
-}  // namespace arcstart
+}  // namespace arcstart::cell_simulator

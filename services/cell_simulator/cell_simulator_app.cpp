@@ -7,7 +7,7 @@
 #include "common/time.hpp"
 #include "services/cell_simulator/calibration_writer.hpp"
 
-namespace arcstart {
+namespace arcstart::cell_simulator {
 namespace {
 
 constexpr std::int64_t kScanSilent =
@@ -144,4 +144,4 @@ Health CellSimulatorApp::health() const {
   return health;
 }
 
-}  // namespace arcstart
+}  // namespace arcstart::cell_simulator

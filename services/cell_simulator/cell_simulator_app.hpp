@@ -9,7 +9,7 @@
 #include "common/service.hpp"
 #include "services/cell_simulator/simulated_cell.hpp"
 
-namespace arcstart {
+namespace arcstart::cell_simulator {
 
 class CellSimulatorApp : public App {
  public:
@@ -44,4 +44,4 @@ class CellSimulatorApp : public App {
   truth_t told_{};
 };
 
-}  // namespace arcstart
+}  // namespace arcstart::cell_simulator

@@ -7,10 +7,10 @@
 #include <vector>
 
 #include "common/configuration.hpp"
-#include "services/cell_simulator/scene_settings.hpp"
-#include "services/cell_simulator/sensor_settings.hpp"
+#include "services/cell_simulator/image/sensor_settings.hpp"
+#include "services/cell_simulator/scene/scene_settings.hpp"
 
-namespace arcstart {
+namespace arcstart::cell_simulator {
 
 struct CellSimulatorSettings {
   SceneSettings scene;
@@ -112,4 +112,4 @@ struct CellSimulatorSettings {
   }
 };
 
-}  // namespace arcstart
+}  // namespace arcstart::cell_simulator

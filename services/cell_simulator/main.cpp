@@ -3,6 +3,7 @@
 
 int main(int argc, char** argv) {
   using namespace arcstart;
+  using namespace arcstart::cell_simulator;
   const ServiceDescription description{"cell_simulator",
                                        "stands for the cell: a GigE Vision camera, a FANUC M-20iA "
                                        "that sends HSPO, and what they see"};

@@ -3,9 +3,9 @@
 #include <cmath>
 
 #include "common/time.hpp"
-#include "services/cell_simulator/random_stream.hpp"
+#include "services/cell_simulator/base/random_stream.hpp"
 
-namespace arcstart {
+namespace arcstart::cell_simulator {
 namespace {
 
 enum Purpose : std::uint64_t {
@@ -203,4 +203,4 @@ void SimulatedCell::render(const SimulatedFrame& frame, std::uint8_t* grey) {
                    frame.region);
 }
 
-}  // namespace arcstart
+}  // namespace arcstart::cell_simulator

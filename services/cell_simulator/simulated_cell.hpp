@@ -6,15 +6,15 @@
 #include <mutex>
 #include <string>
 
+#include "services/cell_simulator/camera/gige_camera.hpp"
 #include "services/cell_simulator/cell_faults.hpp"
 #include "services/cell_simulator/cell_simulator_settings.hpp"
-#include "services/cell_simulator/gige_camera.hpp"
-#include "services/cell_simulator/hspo_sender.hpp"
-#include "services/cell_simulator/plate_view.hpp"
-#include "services/cell_simulator/robot_controller.hpp"
-#include "services/cell_simulator/search_motion.hpp"
+#include "services/cell_simulator/image/plate_view.hpp"
+#include "services/cell_simulator/robot/hspo_sender.hpp"
+#include "services/cell_simulator/robot/robot_controller.hpp"
+#include "services/cell_simulator/robot/search_motion.hpp"
 
-namespace arcstart {
+namespace arcstart::cell_simulator {
 
 // Used by one thread; the devices' threads are its own. Times in us, UTC.
 class SimulatedCell {
@@ -79,4 +79,4 @@ class SimulatedCell {
   std::unique_ptr<HspoSender> sender_;
 };
 
-}  // namespace arcstart
+}  // namespace arcstart::cell_simulator

@@ -6,15 +6,15 @@
 #include <iostream>
 
 #include "common/input_error.hpp"
-#include "services/command_line/calibrate_command.hpp"
-#include "services/command_line/cell_command.hpp"
-#include "services/command_line/check_command.hpp"
-#include "services/command_line/extract_command.hpp"
-#include "services/command_line/find_seam_command.hpp"
-#include "services/command_line/monitor_command.hpp"
-#include "services/command_line/replay_command.hpp"
-#include "services/command_line/scan_command.hpp"
-#include "services/command_line/time_offset_command.hpp"
+#include "services/command_line/commands/calibrate_command.hpp"
+#include "services/command_line/commands/cell_command.hpp"
+#include "services/command_line/commands/check_command.hpp"
+#include "services/command_line/commands/extract_command.hpp"
+#include "services/command_line/commands/find_seam_command.hpp"
+#include "services/command_line/commands/monitor_command.hpp"
+#include "services/command_line/commands/replay_command.hpp"
+#include "services/command_line/commands/scan_command.hpp"
+#include "services/command_line/commands/time_offset_command.hpp"
 
 namespace {
 
@@ -28,6 +28,7 @@ void complain(const CLI::App& program, const std::exception& error) {
 
 int main(int argc, char** argv) {
   using namespace arcstart;
+  using namespace arcstart::command_line;
   // What the stages have to say in replay goes to standard error; standard output is for results.
   spdlog::set_default_logger(spdlog::stderr_logger_mt("arcstart"));
   spdlog::set_level(spdlog::level::warn);

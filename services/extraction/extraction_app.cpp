@@ -3,9 +3,9 @@
 #include <fmt/format.h>
 #include <spdlog/spdlog.h>
 
-#include "services/extraction/image_decoding.hpp"
+#include "services/extraction/files/image_decoding.hpp"
 
-namespace arcstart {
+namespace arcstart::extraction {
 
 static_assert(static_cast<int>(SegmentEnd::kContinues) == stripe_t::CONTINUES);
 static_assert(static_cast<int>(SegmentEnd::kEdge) == stripe_t::EDGE);
@@ -141,4 +141,4 @@ stripe_t ExtractionApp::stripe_of(const image_t& image) {
   return message;
 }
 
-}  // namespace arcstart
+}  // namespace arcstart::extraction

@@ -11,7 +11,7 @@
 #include "common/service.hpp"
 #include "services/extraction/stripe_extractor.hpp"
 
-namespace arcstart {
+namespace arcstart::extraction {
 
 class ExtractionApp : public App {
  public:
@@ -44,4 +44,4 @@ class ExtractionApp : public App {
   cv::Mat laser_off_grey_;
 };
 
-}  // namespace arcstart
+}  // namespace arcstart::extraction

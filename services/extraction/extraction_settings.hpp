@@ -5,7 +5,7 @@
 
 #include "common/configuration.hpp"
 
-namespace arcstart {
+namespace arcstart::extraction {
 
 struct ExtractionSettings {
   // Of the Gaussian kernels. 0: follows the stripe's measured width, found anew at the first image
@@ -57,4 +57,4 @@ struct ExtractionSettings {
   }
 };
 
-}  // namespace arcstart
+}  // namespace arcstart::extraction

@@ -6,6 +6,7 @@
 
 int main(int argc, char** argv) {
   using namespace arcstart;
+  using namespace arcstart::extraction;
   const ServiceDescription description{"extraction",
                                        "finds the laser stripe's centres in each camera image"};
   return run_service(argc, argv, description, [](ServiceContext& context) -> std::unique_ptr<App> {

@@ -3,13 +3,13 @@
 #include <algorithm>
 #include <cmath>
 
-#include "services/extraction/end_centres.hpp"
-#include "services/extraction/finer_centres.hpp"
-#include "services/extraction/light_ends.hpp"
-#include "services/extraction/segment_ends.hpp"
-#include "services/extraction/stripe_quality.hpp"
+#include "services/extraction/centres/blunt_ends.hpp"
+#include "services/extraction/centres/centre_refinement.hpp"
+#include "services/extraction/centres/segment_end_refinement.hpp"
+#include "services/extraction/centres/segment_ends.hpp"
+#include "services/extraction/centres/stripe_quality.hpp"
 
-namespace arcstart {
+namespace arcstart::extraction {
 namespace {
 
 // px from the image's border: on the outermost pixels whatever grows brighter towards it looks like
@@ -248,4 +248,4 @@ void StripeExtractor::extract(const GreyImage& image, Stripe& stripe) {
   if (follows && sigma_ > 0) follow_scale();
 }
 
-}  // namespace arcstart
+}  // namespace arcstart::extraction

@@ -6,16 +6,16 @@
 #include <string>
 #include <vector>
 
-#include "services/extraction/course.hpp"
+#include "services/extraction/centres/centre_noise.hpp"
+#include "services/extraction/centres/stripe_centre.hpp"
+#include "services/extraction/centres/stripe_smoother.hpp"
 #include "services/extraction/extraction_settings.hpp"
-#include "services/extraction/grey_image.hpp"
-#include "services/extraction/linking.hpp"
-#include "services/extraction/ridge.hpp"
-#include "services/extraction/scatter.hpp"
-#include "services/extraction/selection.hpp"
-#include "services/extraction/stripe_centre.hpp"
+#include "services/extraction/image/grey_image.hpp"
+#include "services/extraction/lines/linking.hpp"
+#include "services/extraction/lines/stripe_path.hpp"
+#include "services/extraction/ridge/ridge.hpp"
 
-namespace arcstart {
+namespace arcstart::extraction {
 
 struct Stripe {
   std::vector<StripeCentre> centres;  // segment by segment, in order along each
@@ -83,4 +83,4 @@ class StripeExtractor {
   std::vector<CoursePoint> course_points_;  // of a branch
 };
 
-}  // namespace arcstart
+}  // namespace arcstart::extraction

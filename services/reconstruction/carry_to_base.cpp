@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <optional>
 
-namespace arcstart {
+namespace arcstart::reconstruction {
 namespace {
 
 // Unit direction across the stripe in the image, from the neighbours in the segment. Nothing for a
@@ -66,4 +66,4 @@ std::vector<ProfilePoint> carry_to_base(const std::vector<ReceivedCentre>& centr
   return points;
 }
 
-}  // namespace arcstart
+}  // namespace arcstart::reconstruction

@@ -6,7 +6,7 @@
 #include "common/calibration.hpp"
 #include "services/reconstruction/stripe.hpp"
 
-namespace arcstart {
+namespace arcstart::reconstruction {
 
 // Depth along the optical axis within which the sensor measures; mm.
 struct WorkingRange {
@@ -20,4 +20,4 @@ std::vector<ProfilePoint> carry_to_base(const std::vector<ReceivedCentre>& centr
                                         const RigidTransform& T_base_tool,
                                         const WorkingRange& range);
 
-}  // namespace arcstart
+}  // namespace arcstart::reconstruction

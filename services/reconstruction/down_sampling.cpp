@@ -2,7 +2,7 @@
 
 #include <cmath>
 
-namespace arcstart {
+namespace arcstart::reconstruction {
 namespace {
 
 // Appends those between two kept ones that the stripe bends at, in their order.
@@ -44,4 +44,4 @@ std::vector<ReceivedCentre> down_sample(const std::vector<ReceivedCentre>& centr
   return kept;
 }
 
-}  // namespace arcstart
+}  // namespace arcstart::reconstruction

@@ -5,7 +5,7 @@
 
 #include "services/reconstruction/stripe.hpp"
 
-namespace arcstart {
+namespace arcstart::reconstruction {
 
 // Of each segment the centres 0, M, 2M ... and the last, in their order; its first and last are
 // marked as its ends. A plate's edge is seen at a segment's end: kept, it costs the seam no
@@ -15,4 +15,4 @@ namespace arcstart {
 std::vector<ReceivedCentre> down_sample(const std::vector<ReceivedCentre>& centres, int keep_every,
                                         double bend_px = 0);
 
-}  // namespace arcstart
+}  // namespace arcstart::reconstruction

@@ -3,6 +3,7 @@
 
 int main(int argc, char** argv) {
   using namespace arcstart;
+  using namespace arcstart::reconstruction;
   return run_service(
       argc, argv, {"reconstruction", "carries laser stripes to points in the robot's base frame"},
       [](ServiceContext& context) -> std::unique_ptr<App> {

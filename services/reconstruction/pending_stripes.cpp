@@ -6,7 +6,7 @@
 
 #include "common/time.hpp"
 
-namespace arcstart {
+namespace arcstart::reconstruction {
 
 void PendingStripes::add(ReceivedStripe stripe, const TrajectoryQueue& trajectory,
                          ScanCalibration& calibrations) {
@@ -75,4 +75,4 @@ std::optional<DecidedStripe> PendingStripes::next() {
   return stripe;
 }
 
-}  // namespace arcstart
+}  // namespace arcstart::reconstruction

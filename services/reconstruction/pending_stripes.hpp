@@ -10,7 +10,7 @@
 #include "services/reconstruction/stripe.hpp"
 #include "services/reconstruction/trajectory_queue.hpp"
 
-namespace arcstart {
+namespace arcstart::reconstruction {
 
 // A stripe, its calibration and its position; or why it is to be an empty profile.
 struct DecidedStripe {
@@ -52,4 +52,4 @@ class PendingStripes {
   std::deque<DecidedStripe> stripes_;
 };
 
-}  // namespace arcstart
+}  // namespace arcstart::reconstruction

@@ -6,7 +6,7 @@
 #include "services/reconstruction/carry_to_base.hpp"
 #include "services/reconstruction/down_sampling.hpp"
 
-namespace arcstart {
+namespace arcstart::reconstruction {
 
 Reconstruction::Reconstruction(const ReconstructionSettings& settings)
     : settings_(settings),
@@ -51,4 +51,4 @@ Profile Reconstruction::make_profile(const DecidedStripe& decided) const {
   return profile;
 }
 
-}  // namespace arcstart
+}  // namespace arcstart::reconstruction

@@ -11,7 +11,7 @@
 #include "services/reconstruction/stripe.hpp"
 #include "services/reconstruction/trajectory_queue.hpp"
 
-namespace arcstart {
+namespace arcstart::reconstruction {
 
 class Reconstruction {
  public:
@@ -38,4 +38,4 @@ class Reconstruction {
   PendingStripes pending_;
 };
 
-}  // namespace arcstart
+}  // namespace arcstart::reconstruction

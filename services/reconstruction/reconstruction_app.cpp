@@ -10,7 +10,7 @@
 #include "common/calibration_message.hpp"
 #include "common/time.hpp"
 
-namespace arcstart {
+namespace arcstart::reconstruction {
 namespace {
 
 // The chosen centres alone; second candidates are for those who weigh them.
@@ -168,4 +168,4 @@ std::int64_t ReconstructionApp::Numbering::missing_before(std::int64_t new_group
   return missing;
 }
 
-}  // namespace arcstart
+}  // namespace arcstart::reconstruction

@@ -13,7 +13,7 @@
 #include "common/service.hpp"
 #include "services/reconstruction/reconstruction.hpp"
 
-namespace arcstart {
+namespace arcstart::reconstruction {
 
 // Takes <SENSOR>_STRIPE, <ROBOT>_POSE and <SENSOR>_CALIBRATION, gives exactly one <SENSOR>_PROFILE
 // for every stripe.
@@ -51,4 +51,4 @@ class ReconstructionApp : public App {
   std::string last_empty_;  // why the last profile without a position or calibration was so
 };
 
-}  // namespace arcstart
+}  // namespace arcstart::reconstruction

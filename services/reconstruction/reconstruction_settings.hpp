@@ -2,7 +2,7 @@
 
 #include "common/configuration.hpp"
 
-namespace arcstart {
+namespace arcstart::reconstruction {
 
 // Section `reconstruction` of cell.yaml.
 struct ReconstructionSettings {
@@ -42,4 +42,4 @@ struct ReconstructionSettings {
   }
 };
 
-}  // namespace arcstart
+}  // namespace arcstart::reconstruction

@@ -2,7 +2,7 @@
 
 #include <utility>
 
-namespace arcstart {
+namespace arcstart::reconstruction {
 
 void ScanCalibration::take(std::shared_ptr<const Calibration> calibration) {
   if (of_scan_ && of_scan_->id != calibration->id) none_ = "calibration changed within the scan";
@@ -25,4 +25,4 @@ void ScanCalibration::give_up(std::int64_t scan_id) {
   if (scan_id != 0 && scan_id == scan_id_ && !of_scan_) none_ = "no calibration";
 }
 
-}  // namespace arcstart
+}  // namespace arcstart::reconstruction

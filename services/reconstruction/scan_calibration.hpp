@@ -7,7 +7,7 @@
 
 #include "common/calibration.hpp"
 
-namespace arcstart {
+namespace arcstart::reconstruction {
 
 class ScanCalibration {
  public:
@@ -34,4 +34,4 @@ class ScanCalibration {
   std::string none_;                            // why it has none from now on
 };
 
-}  // namespace arcstart
+}  // namespace arcstart::reconstruction

@@ -7,7 +7,7 @@
 
 #include "common/geometry.hpp"
 
-namespace arcstart {
+namespace arcstart::reconstruction {
 
 // Which image a stripe, and then its profile, comes from.
 struct StripeSource {
@@ -48,4 +48,4 @@ struct Profile {
   std::string empty;                                        // why there are no points
 };
 
-}  // namespace arcstart
+}  // namespace arcstart::reconstruction

@@ -5,7 +5,7 @@
 #include <algorithm>
 #include <cstdlib>
 
-namespace arcstart {
+namespace arcstart::reconstruction {
 
 void TrajectoryQueue::insert(std::int64_t utime, const RigidTransform& T_base_tool) {
   const Position position{utime, T_base_tool};
@@ -77,4 +77,4 @@ std::optional<std::int64_t> TrajectoryQueue::newest() const {
   return positions_.back().utime;
 }
 
-}  // namespace arcstart
+}  // namespace arcstart::reconstruction

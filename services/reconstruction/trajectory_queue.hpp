@@ -9,7 +9,7 @@
 
 #include "common/geometry.hpp"
 
-namespace arcstart {
+namespace arcstart::reconstruction {
 
 class TrajectoryQueue {
  public:
@@ -59,4 +59,4 @@ class TrajectoryQueue {
   std::int64_t going_back_ = 0, jumps_ = 0;
 };
 
-}  // namespace arcstart
+}  // namespace arcstart::reconstruction

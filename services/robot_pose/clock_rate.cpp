@@ -1,6 +1,6 @@
 #include "services/robot_pose/clock_rate.hpp"
 
-namespace arcstart {
+namespace arcstart::robot_pose {
 namespace {
 
 constexpr std::int64_t kWindow = 2'000'000;
@@ -19,4 +19,4 @@ void ClockRate::take(std::int64_t ticks, std::int64_t arrival_us) {
       static_cast<double>(arrival_us - first.arrival_us) / static_cast<double>(ticks - first.ticks);
 }
 
-}  // namespace arcstart
+}  // namespace arcstart::robot_pose

@@ -5,7 +5,7 @@
 #include <deque>
 #include <optional>
 
-namespace arcstart {
+namespace arcstart::robot_pose {
 
 class ClockRate {
  public:
@@ -26,4 +26,4 @@ class ClockRate {
   std::optional<double> tick_us_;
 };
 
-}  // namespace arcstart
+}  // namespace arcstart::robot_pose

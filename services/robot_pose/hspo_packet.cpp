@@ -5,7 +5,7 @@
 #include <bit>
 #include <cmath>
 
-namespace arcstart {
+namespace arcstart::robot_pose {
 namespace {
 
 constexpr std::size_t kHeader = 14;           // version, index, clock, types
@@ -106,4 +106,4 @@ DecodedHspo decode_hspo(std::span<const std::uint8_t> datagram) {
   return {packet, {}};
 }
 
-}  // namespace arcstart
+}  // namespace arcstart::robot_pose

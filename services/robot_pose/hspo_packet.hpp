@@ -7,7 +7,7 @@
 #include <span>
 #include <string>
 
-namespace arcstart {
+namespace arcstart::robot_pose {
 
 // Type bits of a packet: which sections it holds, in ascending order of bits.
 namespace hspo_type {
@@ -38,4 +38,4 @@ struct DecodedHspo {
 // ones.
 DecodedHspo decode_hspo(std::span<const std::uint8_t> datagram);
 
-}  // namespace arcstart
+}  // namespace arcstart::robot_pose

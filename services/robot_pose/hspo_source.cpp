@@ -2,7 +2,7 @@
 
 #include <fmt/format.h>
 
-namespace arcstart {
+namespace arcstart::robot_pose {
 namespace {
 
 // A controller so long silent may have been given another address.
@@ -52,4 +52,4 @@ bool HspoSource::is_the_controller(const Datagram& datagram) {
   return false;
 }
 
-}  // namespace arcstart
+}  // namespace arcstart::robot_pose

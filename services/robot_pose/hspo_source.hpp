@@ -10,7 +10,7 @@
 #include "services/robot_pose/robot_pose_settings.hpp"
 #include "services/robot_pose/udp_listener.hpp"
 
-namespace arcstart {
+namespace arcstart::robot_pose {
 
 class HspoSource : public PoseSource {
  public:
@@ -38,4 +38,4 @@ class HspoSource : public PoseSource {
   std::string stream_error_, last_error_;
 };
 
-}  // namespace arcstart
+}  // namespace arcstart::robot_pose

@@ -7,7 +7,7 @@
 
 #include "services/robot_pose/wpr.hpp"
 
-namespace arcstart {
+namespace arcstart::robot_pose {
 namespace {
 
 // A packet out of its place is dropped; so many that follow one another are a restarted controller.
@@ -194,4 +194,4 @@ std::string HspoStream::clock_error() const {
       *measured, clock_tick_us_);
 }
 
-}  // namespace arcstart
+}  // namespace arcstart::robot_pose

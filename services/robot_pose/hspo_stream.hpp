@@ -13,7 +13,7 @@
 #include "services/robot_pose/hspo_packet.hpp"
 #include "services/robot_pose/pose_source.hpp"
 
-namespace arcstart {
+namespace arcstart::robot_pose {
 
 class HspoStream {
  public:
@@ -66,4 +66,4 @@ class HspoStream {
   std::optional<Joints> joints_;  // newest, for a tool that comes in a packet of its own
 };
 
-}  // namespace arcstart
+}  // namespace arcstart::robot_pose

@@ -2,6 +2,7 @@
 #include "services/robot_pose/robot_pose_app.hpp"
 
 using namespace arcstart;
+using namespace arcstart::robot_pose;
 
 int main(int argc, char** argv) {
   const ServiceDescription description{

@@ -8,7 +8,7 @@
 #include <string>
 #include <vector>
 
-namespace arcstart {
+namespace arcstart::robot_pose {
 
 // One position as the controller measured and reported it.
 struct ReportedPosition {
@@ -52,4 +52,4 @@ class PoseSource {
   virtual std::string description() const = 0;
 };
 
-}  // namespace arcstart
+}  // namespace arcstart::robot_pose

@@ -6,7 +6,7 @@
 
 #include "common/time.hpp"
 
-namespace arcstart {
+namespace arcstart::robot_pose {
 namespace {
 
 constexpr std::int64_t kScanStateHolds = 2'000'000;  // LASER0_SCAN comes at 5 Hz
@@ -113,4 +113,4 @@ void RobotPoseApp::judge(std::int64_t now) {
   }
 }
 
-}  // namespace arcstart
+}  // namespace arcstart::robot_pose

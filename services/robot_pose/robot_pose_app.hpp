@@ -9,7 +9,7 @@
 #include "services/robot_pose/pose_source.hpp"
 #include "services/robot_pose/robot_pose_settings.hpp"
 
-namespace arcstart {
+namespace arcstart::robot_pose {
 
 class RobotPoseApp : public App {
  public:
@@ -47,4 +47,4 @@ class RobotPoseApp : public App {
   std::int64_t troubles_ = 0;    // malformed, foreign and late packets at that time
 };
 
-}  // namespace arcstart
+}  // namespace arcstart::robot_pose

@@ -7,7 +7,7 @@
 
 #include "common/configuration.hpp"
 
-namespace arcstart {
+namespace arcstart::robot_pose {
 
 struct RobotPoseSettings {
   std::string protocol = "hspo";  // FANUC High Speed Position Output, option R891
@@ -47,4 +47,4 @@ struct RobotPoseSettings {
   }
 };
 
-}  // namespace arcstart
+}  // namespace arcstart::robot_pose

@@ -12,7 +12,7 @@
 #include <ctime>
 #include <stdexcept>
 
-namespace arcstart {
+namespace arcstart::robot_pose {
 namespace {
 
 constexpr std::size_t kLongestDatagram = 2048;
@@ -113,4 +113,4 @@ void UdpListener::receive() {
   }
 }
 
-}  // namespace arcstart
+}  // namespace arcstart::robot_pose

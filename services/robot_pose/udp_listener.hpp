@@ -11,7 +11,7 @@
 #include <thread>
 #include <vector>
 
-namespace arcstart {
+namespace arcstart::robot_pose {
 
 struct Datagram {
   std::vector<std::uint8_t> bytes;
@@ -49,4 +49,4 @@ class UdpListener {
   std::atomic<std::int64_t> overflowed_{0};
 };
 
-}  // namespace arcstart
+}  // namespace arcstart::robot_pose

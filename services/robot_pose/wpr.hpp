@@ -3,7 +3,7 @@
 
 #include <Eigen/Geometry>
 
-namespace arcstart {
+namespace arcstart::robot_pose {
 
 // Rz(R) Ry(P) Rx(W); degrees in, unit quaternion out. Holds at P = +-90 deg too, where the angles
 // are singular and must never be interpolated.
@@ -16,4 +16,4 @@ inline Eigen::Quaterniond rotation_from_wpr(double w_deg, double p_deg, double r
       .normalized();
 }
 
-}  // namespace arcstart
+}  // namespace arcstart::robot_pose

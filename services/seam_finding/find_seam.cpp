@@ -6,11 +6,14 @@
 #include <cmath>
 #include <span>
 
-#include "services/seam_finding/plane_fit.hpp"
-#include "services/seam_finding/scales.hpp"
-#include "services/seam_finding/seam_choice.hpp"
+#include "services/seam_finding/answer/seam_answer.hpp"
+#include "services/seam_finding/cloud/scales.hpp"
+#include "services/seam_finding/fit/plane_fit.hpp"
+#include "services/seam_finding/joints/joint_choice.hpp"
+#include "services/seam_finding/planes/plane_search.hpp"
+#include "services/seam_finding/planes/planes.hpp"
 
-namespace arcstart {
+namespace arcstart::seam_finding {
 namespace {
 
 constexpr double kDegree = M_PI / 180;
@@ -60,18 +63,6 @@ std::vector<Face> two_largest_faces(const ScanCloud& scan, const std::vector<int
   return faces;
 }
 
-// Of the thinned points, told by their own places.
-Division division_of(const ThinnedCloud& thinned, const Division& whole) {
-  Division division;
-  auto left = whole.left.begin();
-  for (int i = 0; i < thinned.cloud.size(); ++i) {
-    while (left != whole.left.end() && *left < thinned.places[i]) ++left;
-    const bool is_left = left != whole.left.end() && *left == thinned.places[i];
-    (is_left ? division.left : division.background).push_back(i);
-  }
-  return division;
-}
-
 SeamResult& refuse(SeamResult& result, std::string reason) {
   result.verdict = SeamResult::Verdict::kRefused;
   result.reason = std::move(reason);
@@ -79,17 +70,6 @@ SeamResult& refuse(SeamResult& result, std::string reason) {
 }
 
 }  // namespace
-
-void divide(const ScanCloud& scan, const Background& background, Division& division) {
-  const int first = division.size();
-  const auto rest = std::span(scan.points).subspan(static_cast<std::size_t>(first));
-  std::vector<char> inside;
-  inside.reserve(rest.size());
-  background.classify(rest, inside);
-  if (first == 0) division.background.reserve(rest.size()), division.left.reserve(rest.size());
-  for (std::size_t i = 0; i < inside.size(); ++i)
-    (inside[i] ? division.background : division.left).push_back(first + static_cast<int>(i));
-}
 
 SeamResult find_seam(const ScanCloud& scan, const Background& background,
                      const SeamFindingSettings& settings, std::uint64_t seed) {
@@ -129,11 +109,14 @@ SeamResult find_seam(const ScanCloud& scan, const Division& division, const Thin
   std::erase_if(faces, [&](const Face& face) {
     return continues_background(some, searched.background, face, scales);
   });
-  if (!faces.empty())
-    choose_seam(result, scan, thinned, searched.left, std::move(faces), scales, settings);
-  else if (result.reason.empty())
+  if (!faces.empty()) {
+    if (const auto joint =
+            choose_seam(result, scan, thinned, searched.left, std::move(faces), scales, settings))
+      answer(result, scan, *joint, scales, settings);
+  } else if (result.reason.empty()) {
     refuse(result, "no workpiece: what is left only continues the background");
+  }
   return result;
 }
 
-}  // namespace arcstart
+}  // namespace arcstart::seam_finding

@@ -6,6 +6,7 @@
 
 int main(int argc, char** argv) {
   using namespace arcstart;
+  using namespace arcstart::seam_finding;
   const ServiceDescription description{"seam_finding",
                                        "finds the weld seam in a scan, and where it starts"};
   return run_service(argc, argv, description, [](ServiceContext& context) -> std::unique_ptr<App> {

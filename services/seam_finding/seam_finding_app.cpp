@@ -6,7 +6,7 @@
 #include "common/calibration_message.hpp"
 #include "common/time.hpp"
 
-namespace arcstart {
+namespace arcstart::seam_finding {
 namespace {
 
 constexpr std::size_t kCalibrations = 4;         // kept, by id
@@ -174,4 +174,4 @@ Health SeamFindingApp::health() const {
   return health;
 }
 
-}  // namespace arcstart
+}  // namespace arcstart::seam_finding

@@ -9,10 +9,10 @@
 
 #include "common/calibration.hpp"
 #include "common/service.hpp"
-#include "services/seam_finding/running_scan.hpp"
-#include "services/seam_finding/scan_store.hpp"
+#include "services/seam_finding/scan/running_scan.hpp"
+#include "services/seam_finding/scan/scan_store.hpp"
 
-namespace arcstart {
+namespace arcstart::seam_finding {
 
 class SeamFindingApp : public App {
  public:
@@ -54,4 +54,4 @@ class SeamFindingApp : public App {
   std::string store_error_, background_store_error_, last_error_;
 };
 
-}  // namespace arcstart
+}  // namespace arcstart::seam_finding

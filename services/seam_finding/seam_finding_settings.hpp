@@ -5,7 +5,7 @@
 
 #include "common/configuration.hpp"
 
-namespace arcstart {
+namespace arcstart::seam_finding {
 
 struct SeamFindingSettings {
   // Background. `surface`: nearer than the distance to the background's local surface.
@@ -120,4 +120,4 @@ struct SeamFindingSettings {
   }
 };
 
-}  // namespace arcstart
+}  // namespace arcstart::seam_finding

@@ -2,9 +2,9 @@
 
 #include <opencv2/imgcodecs.hpp>
 
-#include "services/sensor_capture/preview.hpp"
+#include "services/sensor_capture/frames/preview.hpp"
 
-namespace arcstart {
+namespace arcstart::sensor_capture {
 namespace {
 
 constexpr int kPreviewPixels = 49'000;  // with its header at most 50 KB
@@ -81,4 +81,4 @@ scan_t make_scan_message(const ScanState& state) {
   return message;
 }
 
-}  // namespace arcstart
+}  // namespace arcstart::sensor_capture

@@ -1,8 +1,9 @@
-#include "services/sensor_capture/aravis_source.hpp"
-#include "services/sensor_capture/folder_source.hpp"
 #include "services/sensor_capture/sensor_capture_app.hpp"
+#include "services/sensor_capture/sources/aravis_source.hpp"
+#include "services/sensor_capture/sources/folder_source.hpp"
 
 using namespace arcstart;
+using namespace arcstart::sensor_capture;
 
 int main(int argc, char** argv) {
   const ServiceDescription description{

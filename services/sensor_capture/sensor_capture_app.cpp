@@ -8,7 +8,7 @@
 #include "common/time.hpp"
 #include "services/sensor_capture/capture_messages.hpp"
 
-namespace arcstart {
+namespace arcstart::sensor_capture {
 namespace {
 
 constexpr std::int64_t kPreviewPeriod = 500'000;
@@ -218,4 +218,4 @@ Health SensorCaptureApp::health() const {
   return health;
 }
 
-}  // namespace arcstart
+}  // namespace arcstart::sensor_capture

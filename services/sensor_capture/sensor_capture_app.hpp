@@ -13,12 +13,12 @@
 
 #include "common/clock_mapping.hpp"
 #include "common/service.hpp"
-#include "services/sensor_capture/frame_source.hpp"
-#include "services/sensor_capture/scan_owner.hpp"
+#include "services/sensor_capture/frames/frame_source.hpp"
+#include "services/sensor_capture/frames/settings_timeline.hpp"
+#include "services/sensor_capture/scan/scan_owner.hpp"
 #include "services/sensor_capture/sensor_capture_settings.hpp"
-#include "services/sensor_capture/settings_timeline.hpp"
 
-namespace arcstart {
+namespace arcstart::sensor_capture {
 
 class SensorCaptureApp : public App {
  public:
@@ -78,4 +78,4 @@ class SensorCaptureApp : public App {
   std::int64_t error_until_ = 0;  // steady; us
 };
 
-}  // namespace arcstart
+}  // namespace arcstart::sensor_capture

@@ -5,7 +5,7 @@
 
 #include "common/configuration.hpp"
 
-namespace arcstart {
+namespace arcstart::sensor_capture {
 
 struct SensorCaptureSettings {
   std::string source = "camera";  // camera: GigE Vision; folder: images from the disk
@@ -90,4 +90,4 @@ struct SensorCaptureSettings {
   }
 };
 
-}  // namespace arcstart
+}  // namespace arcstart::sensor_capture

@@ -6,10 +6,11 @@
 #include <vector>
 
 #include "common/calibration_message.hpp"
-#include "services/calibration/calibration_file.hpp"
-#include "tests/calibration/sample_file.hpp"
+#include "services/calibration/files/calibration_file.hpp"
+#include "tests/calibration/support/sample_file.hpp"
 
 using namespace arcstart;
+using namespace arcstart::calibration;
 using namespace arcstart::test;
 using Catch::Matchers::Contains;
 

@@ -10,6 +10,7 @@
 #include "common/configuration.hpp"
 
 using namespace arcstart;
+using namespace arcstart::cell_simulator;
 
 namespace {
 

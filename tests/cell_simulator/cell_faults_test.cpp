@@ -2,9 +2,10 @@
 
 #include <catch2/catch.hpp>
 
-#include "services/cell_simulator/device_clock.hpp"
+#include "services/cell_simulator/base/device_clock.hpp"
 
 using namespace arcstart;
+using namespace arcstart::cell_simulator;
 
 namespace {
 constexpr std::int64_t kPeriod = 100'000;

@@ -9,9 +9,10 @@
 #include <thread>
 
 #include "common/time.hpp"
-#include "tests/cell_simulator/camera_client.hpp"
+#include "tests/cell_simulator/camera/camera_client.hpp"
 
 using namespace arcstart;
+using namespace arcstart::cell_simulator;
 
 namespace {
 

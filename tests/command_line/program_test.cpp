@@ -10,9 +10,10 @@
 #include <nlohmann/json.hpp>
 #include <sstream>
 
-#include "tests/command_line/synthetic_recording.hpp"
+#include "tests/command_line/support/synthetic_recording.hpp"
 
 using namespace arcstart;
+using namespace arcstart::command_line;
 using namespace arcstart::test;
 using Catch::Matchers::Contains;
 

@@ -5,7 +5,7 @@
 #include <string>
 
 #include "common/configuration.hpp"
-#include "services/calibration/calibration_file.hpp"
+#include "services/calibration/files/calibration_file.hpp"
 
 namespace {
 

@@ -2,10 +2,11 @@
 // the file.
 #include <cstdlib>
 
-#include "services/command_line/point_cloud_file.hpp"
+#include "services/command_line/clouds/point_cloud_file.hpp"
 
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
   using namespace arcstart;
+  using namespace arcstart::command_line;
   const std::string_view bytes(reinterpret_cast<const char*>(data), size);
   // The bytes alone, and behind the start of each format, so that the headers are reached at once.
   for (const std::string& whole :

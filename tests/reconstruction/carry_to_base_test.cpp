@@ -7,6 +7,7 @@
 #include "tests/reconstruction/synthetic_cell.hpp"
 
 using namespace arcstart;
+using namespace arcstart::reconstruction;
 using namespace arcstart::test;
 
 namespace {

@@ -6,6 +6,7 @@
 #include <set>
 
 using namespace arcstart;
+using namespace arcstart::reconstruction;
 
 namespace {
 

@@ -8,6 +8,7 @@
 #include "tests/reconstruction/reconstruction_chain.hpp"
 
 using namespace arcstart;
+using namespace arcstart::reconstruction;
 using namespace arcstart::test;
 
 namespace {

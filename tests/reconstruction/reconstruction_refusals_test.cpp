@@ -5,6 +5,7 @@
 #include "tests/reconstruction/reconstruction_chain.hpp"
 
 using namespace arcstart;
+using namespace arcstart::reconstruction;
 using namespace arcstart::test;
 
 TEST_CASE("a calibration that does not hold together is refused, and the one before stays") {

@@ -3,6 +3,7 @@
 #include <catch2/catch.hpp>
 
 using namespace arcstart;
+using namespace arcstart::reconstruction;
 
 namespace {
 

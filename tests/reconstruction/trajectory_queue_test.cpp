@@ -6,6 +6,7 @@
 #include <vector>
 
 using namespace arcstart;
+using namespace arcstart::reconstruction;
 using State = TrajectoryQueue::State;
 
 namespace {

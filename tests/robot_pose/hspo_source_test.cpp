@@ -14,6 +14,7 @@
 #include "tests/robot_pose/hspo_bytes.hpp"
 
 using namespace arcstart;
+using namespace arcstart::robot_pose;
 using namespace arcstart::test;
 
 namespace {

@@ -7,6 +7,7 @@
 #include "common/time.hpp"
 
 using namespace arcstart;
+using namespace arcstart::robot_pose;
 
 namespace {
 

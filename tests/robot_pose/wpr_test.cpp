@@ -5,6 +5,7 @@
 #include <random>
 
 using namespace arcstart;
+using namespace arcstart::robot_pose;
 
 namespace {
 

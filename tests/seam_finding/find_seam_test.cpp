@@ -6,9 +6,11 @@
 #include <cmath>
 
 #include "common/geometry.hpp"
-#include "tests/seam_finding/synthetic_scan.hpp"
+#include "services/seam_finding/background/surface_background.hpp"
+#include "tests/seam_finding/support/synthetic_scan.hpp"
 
 using namespace arcstart;
+using namespace arcstart::seam_finding;
 using namespace arcstart::synthetic;
 
 namespace {

@@ -2,10 +2,12 @@
 #include <catch2/catch.hpp>
 #include <random>
 
+#include "services/seam_finding/background/surface_background.hpp"
 #include "services/seam_finding/find_seam.hpp"
-#include "tests/seam_finding/synthetic_scan.hpp"
+#include "tests/seam_finding/support/synthetic_scan.hpp"
 
 using namespace arcstart;
+using namespace arcstart::seam_finding;
 
 namespace {
 

@@ -1,9 +1,12 @@
 // Scans in, answers out.
 #include <catch2/catch.hpp>
 
-#include "tests/seam_finding/service_life.hpp"
+#include "services/seam_finding/model/scan_cloud.hpp"
+#include "services/seam_finding/seam_finding_settings.hpp"
+#include "tests/seam_finding/scan/service_life.hpp"
 
 using namespace arcstart;
+using namespace arcstart::seam_finding;
 using namespace arcstart::synthetic;
 
 TEST_CASE("background, then workpiece, then the seam") {

@@ -2,9 +2,10 @@
 #include <catch2/catch.hpp>
 #include <opencv2/imgcodecs.hpp>
 
-#include "tests/sensor_capture/scripted_cell.hpp"
+#include "tests/sensor_capture/support/scripted_cell.hpp"
 
 using namespace arcstart;
+using namespace arcstart::sensor_capture;
 using namespace arcstart::test;
 
 TEST_CASE("sensor_capture: without a scan there is a preview and the scan's state, no image") {

@@ -4,14 +4,17 @@
 #include <csignal>
 #include <filesystem>
 
-#include "services/calibration/calibration_file.hpp"
-#include "services/calibration/time_offset.hpp"
+#include "services/calibration/files/calibration_file.hpp"
+#include "services/calibration/sweeps/time_offset.hpp"
 #include "services/cell_simulator/cell_simulator_settings.hpp"
-#include "services/command_line/seam_error.hpp"
-#include "tests/bench/simulated_plate.hpp"
+#include "services/command_line/output/seam_error.hpp"
+#include "tests/bench/calibration/simulated_plate.hpp"
 #include "tests/system/running_cell.hpp"
 
 using namespace arcstart;
+using namespace arcstart::calibration;
+using namespace arcstart::cell_simulator;
+using namespace arcstart::command_line;
 namespace fs = std::filesystem;
 
 namespace {

@@ -3,10 +3,11 @@
 #include <catch2/catch.hpp>
 #include <csignal>
 
-#include "services/command_line/seam_error.hpp"
+#include "services/command_line/output/seam_error.hpp"
 #include "tests/system/running_cell.hpp"
 
 using namespace arcstart;
+using namespace arcstart::command_line;
 
 namespace {
 

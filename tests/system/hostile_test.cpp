@@ -12,10 +12,11 @@
 #include <fstream>
 #include <limits>
 
-#include "services/command_line/seam_error.hpp"
+#include "services/command_line/output/seam_error.hpp"
 #include "tests/system/running_cell.hpp"
 
 using namespace arcstart;
+using namespace arcstart::command_line;
 namespace fs = std::filesystem;
 
 namespace {

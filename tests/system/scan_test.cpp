@@ -3,12 +3,13 @@
 #include <csignal>
 #include <set>
 
-#include "services/command_line/replay.hpp"
-#include "services/command_line/seam_error.hpp"
-#include "services/command_line/seam_json.hpp"
+#include "services/command_line/output/seam_error.hpp"
+#include "services/command_line/output/seam_json.hpp"
+#include "services/command_line/recordings/replay.hpp"
 #include "tests/system/running_cell.hpp"
 
 using namespace arcstart;
+using namespace arcstart::command_line;
 
 namespace {
 

@@ -1,10 +1,11 @@
 // One live scan, slow and small enough for processes under sanitizers.
 #include <catch2/catch.hpp>
 
-#include "services/command_line/seam_error.hpp"
+#include "services/command_line/output/seam_error.hpp"
 #include "tests/system/running_cell.hpp"
 
 using namespace arcstart;
+using namespace arcstart::command_line;
 
 TEST_CASE("a live scan at 2 frames a second and 400 x 300") {
   RunningCell cell("slow_scan",

@@ -1,0 +1,29 @@
+// What comes out of a calibration: the set for the cell's file, and whether it is good enough.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "common/calibration.hpp"
+#include "services/calibration/solve/calibrate.hpp"
+#include "services/calibration/solve/calibration_limits.hpp"
+
+namespace arcstart::calibration {
+
+struct CalibrationNames {
+  std::string sensor = "LASER0", robot = "ROBOT0", tool = "TCP1";
+  double time_offset = 0;  // s; images at rest say nothing of it
+  std::int64_t made = 0;   // us, UTC
+};
+
+// The set with residuals and covariance, without an id. The run was not refused and has a laser.
+Calibration to_calibration(const CalibrationRun& run, const CalibrationNames& names);
+
+// RMS distance of the plate's points, carried to base with what the robot said, from where the set
+// puts them; mm.
+double hand_eye_residual(const Plate& plate, const CalibrationRun& run);
+
+// Which limits the run misses, a line each; none where it passes.
+std::vector<std::string> missed_limits(const CalibrationRun& run, const CalibrationLimits& limits);
+
+}  // namespace arcstart::calibration

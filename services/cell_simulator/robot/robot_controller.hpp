@@ -1,0 +1,48 @@
+// What the simulated controller reports: the arm's place at an instant as an HSPO packet.
+#pragma once
+
+#include <atomic>
+#include <cstdint>
+#include <functional>
+#include <optional>
+#include <vector>
+
+#include "services/cell_simulator/base/device_clock.hpp"
+#include "services/cell_simulator/robot/fanuc_m20ia.hpp"
+
+namespace arcstart::cell_simulator {
+
+struct RobotControllerSettings {
+  RigidTransform T_tool0_tool = RigidTransform::Identity();
+  double position_noise = 0.02;  // standard deviation on x, y and z each; mm
+  bool joints_too = true;        // beside the tool centre point, in the same packet
+  double tick_us = 1;            // of the controller's clock
+  DeviceClock clock;
+  std::uint64_t seed = 1;  // of the noise
+};
+
+// Called from one thread, but for unreachable().
+class RobotController {
+ public:
+  using Pose = std::function<RigidTransform(std::int64_t utime)>;  // T_base_tool
+
+  RobotController(const RobotControllerSettings& settings, Pose pose);
+
+  // The packet of an instant (us, UTC); the first has index 0. clock_back_us is taken off the
+  // controller's clock.
+  std::vector<std::uint8_t> packet(std::int64_t instant, std::int64_t clock_back_us = 0);
+
+  std::int64_t unreachable() const {
+    return unreachable_;
+  }  // poses without joints, which kept the last ones
+
+ private:
+  RobotControllerSettings settings_;
+  Pose pose_;
+  FanucM20ia arm_;
+  std::optional<Joints> joints_;  // of the last packet
+  std::uint64_t packets_ = 0;
+  std::atomic<std::int64_t> unreachable_{0};
+};
+
+}  // namespace arcstart::cell_simulator

@@ -1,0 +1,226 @@
+#include "services/command_line/commands/calibrate_command.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <filesystem>
+#include <fstream>
+#include <iostream>
+#include <memory>
+#include <stdexcept>
+
+#include "common/time.hpp"
+#include "services/calibration/calibration_settings.hpp"
+#include "services/calibration/files/calibration_file.hpp"
+#include "services/calibration/files/calibration_set.hpp"
+#include "services/calibration/files/view_detection.hpp"
+#include "services/calibration/report/calibration_json.hpp"
+#include "services/calibration/report/calibration_report.hpp"
+#include "services/calibration/solve/calibration_result.hpp"
+#include "services/command_line/commands/calibrate_live.hpp"
+#include "services/command_line/output/terminal.hpp"
+#include "services/extraction/files/image_file.hpp"
+
+namespace arcstart::command_line {
+namespace {
+
+namespace fs = std::filesystem;
+
+struct Options {
+  std::string folder, output, cell, channel;
+  bool without_laser = false, live = false, go_on = false;
+  int poses = 20;
+  std::int64_t seed = -1;
+  calibration::CalibrationNames names;
+};
+
+void say(const std::string& text) { std::cerr << "calibrate: " << text << "\n"; }
+
+cv::Mat read_image(const Options& options, const std::string& path, const cv::Size& size) {
+  const cv::Mat grey = extraction::read_grey_image(path, options.channel);
+  if (size.area() > 0 && grey.size() != size)
+    throw calibration::CalibrationSetError(
+        fmt::format("{}: {} x {} pixels, the images before it have {} x {}", path, grey.cols,
+                    grey.rows, size.width, size.height));
+  return grey;
+}
+
+struct Seen {
+  std::vector<calibration::View> views;
+  cv::Size size;
+};
+
+Seen look_at_all(const Options& options, const calibration::CalibrationSet& set,
+                 ProgressLine& progress) {
+  Seen seen;
+  for (std::size_t i = 0; i < set.poses.size(); ++i) {
+    const calibration::CalibrationPose& pose = set.poses[i];
+    progress.show(fmt::format("calibrate: pose {} of {}", i + 1, set.poses.size()));
+    const cv::Mat grid = read_image(options, pose.grid, seen.size);
+    seen.size = grid.size();
+    const cv::Mat laser =
+        pose.laser == pose.grid ? grid : read_image(options, pose.laser, seen.size);
+    seen.views.push_back(calibration::look_at_pose(pose, set.plate, grid, laser));
+    if (options.without_laser) seen.views.back().stripe.clear();
+  }
+  const auto count = [&](const auto& condition) {
+    return std::count_if(seen.views.begin(), seen.views.end(), condition);
+  };
+  if (count([](const calibration::View& view) { return !view.target.empty(); }) == 0)
+    throw calibration::CalibrationSetError(fmt::format(
+        "{}: the plate's {} x {} points are in none of the {} images: are pattern, columns and "
+        "rows in plate.yaml right?",
+        options.folder, set.plate.columns, set.plate.rows, seen.views.size()));
+  if (!options.without_laser &&
+      count([](const calibration::View& view) { return !view.stripe.empty(); }) == 0)
+    throw calibration::CalibrationSetError(fmt::format(
+        "{}: no stripe in any of the {} images: was the laser on? --without-laser judges camera "
+        "and hand-eye alone",
+        options.folder, seen.views.size()));
+  return seen;
+}
+
+void write_file(const fs::path& path, const std::string& text) {
+  if (!(std::ofstream(path, std::ios::binary) << text))
+    throw calibration::CalibrationSetError(path.string() + ": cannot be written");
+}
+
+void tell(const calibration::CalibrationRun& run, const std::vector<std::string>& missed) {
+  for (const calibration::LeftOutView& view : run.left_out)
+    say(fmt::format("pose {} left out: {}", view.index, view.why));
+  for (const std::string& warning : run.warnings) say("warning: " + warning);
+  if (!run.refused.empty()) {
+    say("refused: " + run.refused);
+    return;
+  }
+  for (const std::string& line : missed) say("limit missed: " + line);
+  for (const std::string& line : run.advice) say("to improve it: " + line);
+}
+
+int run_command(const Options& options) {
+  calibration::CalibrationLimits limits;
+  if (!options.cell.empty())
+    limits = Configuration::from_file(options.cell)
+                 .read<calibration::CalibrationSettings>("calibration")
+                 .limits;
+  const fs::path output = options.output.empty() ? fs::path(options.folder) / "calibration.yaml"
+                                                 : fs::path(options.output);
+  ProgressLine progress;
+  const calibration::CalibrationSet set = calibration::read_calibration_set(options.folder);
+  const Seen seen = look_at_all(options, set, progress);
+  calibration::CalibrateOptions how;
+  how.progress = [&](const std::string& text) { progress.show("calibrate: " + text); };
+  calibration::CalibrationRun run =
+      calibration::calibrate(set.plate, seen.views, seen.size.width, seen.size.height, how);
+  if (run.refused.empty() && !run.has_laser && !options.without_laser)
+    run.refused = "no usable pose shows a straight stripe on the plate";
+  const std::vector<std::string> missed =
+      run.refused.empty() ? calibration::missed_limits(run, limits) : std::vector<std::string>{};
+  progress.show("calibrate: report");
+
+  const auto image_of = [&](int index) {
+    const auto pose =
+        std::find_if(set.poses.begin(), set.poses.end(),
+                     [&](const calibration::CalibrationPose& p) { return p.index == index; });
+    const cv::Mat grid = extraction::read_grey_image(pose->grid, options.channel);
+    if (pose->laser == pose->grid) return grid;
+    return cv::Mat(cv::max(grid, extraction::read_grey_image(pose->laser, options.channel)));
+  };
+  nlohmann::json json = calibration::to_json(run, missed);
+  const bool has_set = run.refused.empty() && run.has_laser;
+  if (has_set) {
+    const std::string text =
+        calibration::calibration_file_text(calibration::to_calibration(run, options.names));
+    json["id"] = calibration::parse_calibration(text, output.string()).id;
+    write_file(output, text);
+  }
+  write_file(fs::path(output).replace_extension(".json"), json.dump(2) + "\n");
+  write_file(fs::path(output).replace_extension(".html"),
+             calibration::calibration_report("Calibration of " + options.folder, set.plate,
+                                             seen.views, run, limits, missed, image_of));
+  progress.clear();
+  tell(run, missed);
+  std::cout << json.dump(2) << "\n";
+  if (!run.refused.empty()) return 1;
+  if (has_set)
+    say(fmt::format(
+        "{}: laser points of poses it never saw lie within {:.3f} mm RMS; report beside "
+        "it, .html and .json",
+        output.string(), run.left_one_out.laser_rms_mm));
+  return missed.empty() ? 0 : 1;
+}
+
+int run_or_complain(const Options& options) try {
+  if (options.live != options.folder.empty()) {
+    say("give either a folder or --live");
+    return 2;
+  }
+  if (options.live)
+    return calibrate_live({options.cell,
+                           {options.names.sensor, options.names.robot, ""},
+                           options.poses,
+                           !options.go_on,
+                           options.seed});
+  return run_command(options);
+} catch (const calibration::CalibrationFileError& error) {
+  say(std::string("refused: the result is no sensor that can be: ") + error.what());
+  return 1;
+}
+
+}  // namespace
+
+void add_calibrate_command(CLI::App& parent, int& exit_code) {
+  auto options = std::make_shared<Options>();
+  options->names.made = utime_now();
+  CLI::App* command = parent.add_subcommand(
+      "calibrate", "Camera, laser plane and hand-eye from images of a plate and the robot's poses");
+  command->add_option("folder", options->folder,
+                      "Holds plate.yaml, poses.csv, grid/NNNN.png and laser/NNNN.png");
+  command->add_flag(
+      "--live", options->live,
+      "In a running cell instead: captures pose after pose and has arcstart-calibration "
+      "solve; a simulated cell drives the poses itself");
+  command->add_option("--poses", options->poses, "With --live: poses in a simulated cell")
+      ->check(CLI::Range(1, 1000))
+      ->capture_default_str();
+  command
+      ->add_option("--seed", options->seed,
+                   "With --live: seed of a simulated plate; -1: the one in force")
+      ->capture_default_str();
+  command->add_flag("--continue", options->go_on,
+                    "With --live: keep the poses that were captured before");
+  command->add_option("-o,--output", options->output,
+                      "File for the calibration; a report stands beside it, .html and .json "
+                      "(default: FOLDER/calibration.yaml)");
+  command
+      ->add_option("--cell", options->cell,
+                   "The cell's file, cell.yaml, whose section calibration holds the limits")
+      ->check(CLI::ExistingFile);
+  command
+      ->add_option("--channel", options->channel,
+                   "Colour channel of the laser; needed for true colour alone")
+      ->check(CLI::IsMember({"r", "g", "b"}));
+  command->add_option("--sensor", options->names.sensor, "Whose calibration it is")
+      ->capture_default_str();
+  command->add_option("--robot", options->names.robot, "On which robot")->capture_default_str();
+  command->add_option("--tool", options->names.tool, "The robot's tool frame of the poses")
+      ->capture_default_str();
+  command
+      ->add_option("--time-offset", options->names.time_offset,
+                   "Added to an image's time to look up the position, s; known from elsewhere")
+      ->check(CLI::Range(-5.0, 5.0))
+      ->capture_default_str();
+  command->add_flag("--without-laser", options->without_laser,
+                    "Judge camera and hand-eye alone; no calibration is written");
+  command->footer(
+      "plate.yaml: pattern (circles, asymmetric_circles, chessboard), columns, rows, pitch_mm "
+      "(OpenCV's square size),\nradius_mm, origin_dot_radius_mm where the first dot is larger. "
+      "poses.csv: index,x,y,z,qw,qx,qy,qz, tool in base, mm.\nlaser/ may be absent where grid/ "
+      "shows "
+      "the stripe too. JSON goes to standard output.\nExit: 0 made and within its limits; 1 "
+      "refused "
+      "or a limit missed; 2 bad input.");
+  command->callback([options, &exit_code] { exit_code = run_or_complain(*options); });
+}
+
+}  // namespace arcstart::command_line

@@ -1,0 +1,268 @@
+#include "services/command_line/commands/find_seam_command.hpp"
+
+#include <fmt/format.h>
+
+#include <cerrno>
+#include <cmath>
+#include <cstring>
+#include <fstream>
+#include <iostream>
+#include <memory>
+#include <stdexcept>
+
+#include "services/command_line/clouds/cloud_picture.hpp"
+#include "services/command_line/clouds/point_cloud_file.hpp"
+#include "services/command_line/output/seam_json.hpp"
+#include "services/seam_finding/background/plane_background.hpp"
+#include "services/seam_finding/background/surface_background.hpp"
+#include "services/seam_finding/consensus_seam.hpp"
+#include "services/seam_finding/scan/seam_message.hpp"
+
+namespace arcstart::command_line {
+namespace {
+
+constexpr double kViewHeight = 1000;  // of a viewpoint that is not given, above the plane; mm
+constexpr std::uint64_t kSeed = 1;
+
+struct Options {
+  std::string cloud, background, picture, stations, cell, joint, units = "mm";
+  std::vector<double> viewpoint, search_direction;
+  bool remove_plane = false, json = false;
+
+  double mm_per_unit() const { return units == "m" ? 1000 : 1; }
+};
+
+std::string in_words(const Eigen::Vector3d& v, int decimals) {
+  return fmt::format("({:.{}f}, {:.{}f}, {:.{}f})", v.x(), decimals, v.y(), decimals, v.z(),
+                     decimals);
+}
+
+void say(const std::string& text) { std::cerr << "find-seam: " << text << "\n"; }
+
+PointCloud read_in_mm(const std::string& path, const Options& options) {
+  PointCloud cloud = read_point_cloud(path);
+  for (Eigen::Vector3d& point : cloud.points) point *= options.mm_per_unit();
+  if (cloud.viewpoint) *cloud.viewpoint *= options.mm_per_unit();
+  if (cloud.skipped > 0)
+    say(fmt::format("{}: {} of {} points are not finite: left out", path, cloud.skipped,
+                    cloud.points.size() + cloud.skipped));
+  return cloud;
+}
+
+// A thousand times too large or too small is the likeliest mistake.
+void check_extent(const seam_finding::ScanCloud& cloud, const Options& options) {
+  Eigen::Vector3d low = cloud.points.front(), high = low;
+  for (const auto& point : cloud.points) low = low.cwiseMin(point), high = high.cwiseMax(point);
+  const double extent = (high - low).norm();
+  if (extent < 10 && options.units == "mm")
+    say(fmt::format("the cloud measures {:.3g} mm in all: is it in metres? Then give --units m",
+                    extent));
+  if (extent > 1e5 && options.units == "m")
+    say(fmt::format("the cloud measures {:.3g} m in all: is it in mm? Then leave --units m away",
+                    extent / 1000));
+}
+
+void set_viewpoint(seam_finding::ScanCloud& cloud, const PointCloud& file, const Options& options,
+                   const std::optional<Plane>& plane) {
+  if (!options.viewpoint.empty()) {
+    cloud.viewpoint =
+        Eigen::Map<const Eigen::Vector3d>(options.viewpoint.data()) * options.mm_per_unit();
+    cloud.viewpoint_known = true;
+  } else if (file.viewpoint) {
+    cloud.viewpoint = *file.viewpoint;
+    cloud.viewpoint_known = true;
+    say(fmt::format("seen from the file's VIEWPOINT {} mm", in_words(cloud.viewpoint, 1)));
+  } else if (plane) {
+    Eigen::Vector3d middle = Eigen::Vector3d::Zero();
+    for (const auto& point : cloud.points) middle += point / static_cast<double>(cloud.size());
+    cloud.viewpoint = middle + (kViewHeight - plane->signed_distance(middle)) * plane->normal;
+    say(
+        fmt::format("no viewpoint given: taken as seen from {} mm, 1 m above its dominant plane, "
+                    "on the side with more points",
+                    in_words(cloud.viewpoint, 0)));
+  }
+}
+
+void set_search_direction(seam_finding::ScanCloud& cloud, const Options& options) {
+  if (options.search_direction.empty()) {
+    say("no search direction given: taken as running along the longest seam's increasing x, then "
+        "y, then z");
+    return;
+  }
+  cloud.search_direction =
+      Eigen::Map<const Eigen::Vector3d>(options.search_direction.data()).normalized();
+}
+
+void draw(const seam_finding::ScanCloud& cloud, const seam_finding::SeamResult& result,
+          const std::optional<Plane>& plane, const Options& options) {
+  enum Part : char { kOther, kBackground, kFirst, kSecond };
+  std::vector<Part> parts(cloud.points.size(), kOther);
+  for (const int i : result.background) parts[i] = kBackground;
+  for (const int i : result.plates[0]) parts[i] = kFirst;
+  for (const int i : result.plates[1]) parts[i] = kSecond;
+  CloudPicture picture;
+  for (int i = 0; i < cloud.size(); ++i)
+    (parts[i] == kOther        ? picture.others
+     : parts[i] == kBackground ? picture.background
+                               : picture.plates[parts[i] - kFirst])
+        .push_back(cloud.points[i]);
+  for (const auto& other : result.alternatives)
+    picture.alternatives.emplace_back(other.start, other.end);
+  if (plane) picture.up = plane->normal;
+  picture.toward_viewer = picture.up + picture.up.unitOrthogonal();
+  picture.title = options.cloud + ": " + result.reason;
+  if (result.verdict == seam_finding::SeamResult::Verdict::kFound) {
+    picture.seam = {result.start, result.end};
+    picture.toward_viewer = result.normals[0] + result.normals[1] - 0.6 * result.direction;
+    picture.title = fmt::format("{}: {}, start {} mm", options.cloud, result.joint_type,
+                                in_words(result.start, 1));
+  }
+  draw_cloud(picture, options.picture);
+  say("picture: " + options.picture);
+}
+
+// What was measured along the seam, a line a place. Throws PointCloudFileError where it cannot be
+// written.
+void write_stations(const seam_finding::SeamResult& result, const std::string& path) {
+  std::string text = "distance,x,y,z,residual,tack,gap\n";  // mm
+  for (const seam_finding::SurveyPlace& place : result.stations)
+    text += fmt::format("{:.3f},{:.4f},{:.4f},{:.4f},{},{},{}\n", place.along, place.position.x(),
+                        place.position.y(), place.position.z(),
+                        place.residual < 0 ? "" : fmt::format("{:.4f}", place.residual),
+                        place.tack ? 1 : 0, place.gap < 0 ? "" : fmt::format("{:.3f}", place.gap));
+  std::ofstream file(path, std::ios::binary);
+  file << text;
+  file.close();
+  if (!file) throw PointCloudFileError(path + ": cannot be written: " + std::strerror(errno));
+  say("stations: " + path);
+}
+
+void tell(const seam_finding::SeamResult& result) {
+  switch (result.verdict) {
+    case seam_finding::SeamResult::Verdict::kFound:
+      say(fmt::format("found {}, start {} mm, end {} mm, direction {}; {}", result.joint_type,
+                      in_words(result.start, 2), in_words(result.end, 2),
+                      in_words(result.direction, 4), result.remark));
+      break;
+    case seam_finding::SeamResult::Verdict::kAmbiguous:
+      say("ambiguous: " + result.reason);
+      break;
+    case seam_finding::SeamResult::Verdict::kRefused:
+      say("refused: " + result.reason);
+      break;
+  }
+  for (const auto& other : result.alternatives)
+    say(fmt::format("also {} mm to {} mm, score {:.1f}: {}", in_words(other.start, 1),
+                    in_words(other.end, 1), other.score, other.reason));
+}
+
+int run(const Options& options) {
+  auto settings = options.cell.empty()
+                      ? seam_finding::SeamFindingSettings{}
+                      : Configuration::from_file(options.cell)
+                            .read<seam_finding::SeamFindingSettings>("seam_finding");
+  if (!options.joint.empty()) settings.joint_type = options.joint;
+  const PointCloud file = read_in_mm(options.cloud, options);
+  seam_finding::ScanCloud cloud = seam_finding::unorganised_cloud(file.points);
+  check_extent(cloud, options);
+  const auto plane = seam_finding::dominant_plane(cloud, kSeed);
+  set_viewpoint(cloud, file, options, plane);
+  set_search_direction(cloud, options);
+
+  seam_finding::ScanCloud empty_cell;  // outlives the background that refers to it
+  std::unique_ptr<seam_finding::Background> background =
+      std::make_unique<seam_finding::NoBackground>();
+  if (!options.background.empty()) {
+    empty_cell = seam_finding::unorganised_cloud(read_in_mm(options.background, options).points);
+    background = std::make_unique<seam_finding::SurfaceBackground>(empty_cell,
+                                                                   settings.background_distance_mm);
+  } else if (options.remove_plane && plane) {
+    background = std::make_unique<seam_finding::PlaneBackground>(cloud, *plane);
+  }
+  const seam_finding::SeamResult result =
+      seam_finding::find_agreed_seam(cloud, *background, settings, kSeed);
+
+  tell(result);
+  if (options.json) {
+    seam_t seam = seam_finding::empty_seam();
+    seam_finding::fill_in(seam, result);
+    seam.points = cloud.size();
+    std::cout << seam_to_json(seam).dump() << "\n";
+  }
+  if (!options.picture.empty()) draw(cloud, result, plane, options);
+  if (!options.stations.empty()) write_stations(result, options.stations);
+  return result.verdict == seam_finding::SeamResult::Verdict::kFound ? 0 : 1;
+}
+
+CLI::Validator finite_vector() {
+  return CLI::Validator(
+      [](std::string& text) -> std::string {
+        const double value = std::strtod(text.c_str(), nullptr);
+        return std::isfinite(value) && std::abs(value) < 1e9 ? "" : "must be finite, is " + text;
+      },
+      "");
+}
+
+}  // namespace
+
+void add_find_seam_command(CLI::App& parent, int& exit_code) {
+  auto options = std::make_shared<Options>();
+  CLI::App* command =
+      parent.add_subcommand("find-seam", "Find the weld seam in a point cloud from a file");
+  command->add_option("CLOUD", options->cloud, "PCD (ascii, binary) or PLY (ascii, little endian)")
+      ->required();
+  auto* background = command->add_option("--background", options->background,
+                                         "Cloud of the empty cell, which is taken away");
+  command
+      ->add_flag("--remove-plane", options->remove_plane,
+                 "Take away the dominant plane, what lies up to five times the cloud's tolerance "
+                 "above it, and all below")
+      ->excludes(background);
+  command->add_option("--units", options->units, "Of the files and of --viewpoint")
+      ->check(CLI::IsMember({"mm", "m"}))
+      ->capture_default_str();
+  command
+      ->add_option("--viewpoint", options->viewpoint,
+                   "Where the sensor was, x,y,z; without it the file's, else 1 m above the "
+                   "dominant plane, on the side with more points")
+      ->delimiter(',')
+      ->expected(3)
+      ->check(finite_vector());
+  command
+      ->add_option("--search-direction", options->search_direction,
+                   "The way of the search, x,y,z: where it begins, the seam starts; without it "
+                   "along the longest seam's increasing x, then y, then z")
+      ->delimiter(',')
+      ->expected(3)
+      ->check(finite_vector());
+  command
+      ->add_option(
+          "--joint", options->joint,
+          "Joint wanted, else the cell's seam_finding.joint_type, which is tee where it is "
+          "not said. any: tee, lap, butt or v; an outside_corner looks like the edge of a "
+          "box and must be asked for; lap, butt and v need --search-direction")
+      ->check(CLI::IsMember({"any", "tee", "corner", "outside_corner", "lap", "butt", "v"}));
+  command->add_flag("--json", options->json,
+                    "Print the answer on standard output, keys as in seam_t (mm and rad)");
+  command->add_option("--picture", options->picture,
+                      "PNG of the cloud with background, plates, seam and start, from two sides");
+  command->add_option(
+      "--csv", options->stations,
+      "CSV of the places along the seam: distance from the start, position, "
+      "residual from the line (mm, empty where not measured), tack weld (0 or 1), gap "
+      "(mm, likewise)");
+  command->add_option("--cell", options->cell,
+                      "The cell's file, cell.yaml, whose section seam_finding is to be used");
+  command->footer(
+      "Without --background or --remove-plane nothing is taken away, and the line of a plate on "
+      "the table counts as a seam.\n"
+      "Exit: 0 found; 1 ambiguous or refused; 2 bad input.");
+  command->callback([options, &exit_code] {
+    const auto& way = options->search_direction;
+    if (!way.empty() && way[0] == 0 && way[1] == 0 && way[2] == 0)
+      throw CLI::ValidationError("--search-direction", "must not be 0,0,0");
+    exit_code = run(*options);
+  });
+}
+
+}  // namespace arcstart::command_line

@@ -1,0 +1,23 @@
+// Images from files, as grey values.
+#pragma once
+
+#include <opencv2/core.hpp>
+#include <string>
+
+#include "common/input_error.hpp"
+
+namespace arcstart::extraction {
+
+// One line: which file, what is wrong with it, what to do.
+class ImageFileError : public InputError {
+ public:
+  using InputError::InputError;
+};
+
+// 8-bit grey values of an image file. channel: "r", "g" or "b" of a colour image; empty for a grey
+// one, which may be stored as colour with equal channels. Throws ImageFileError where the file
+// cannot be read, is not 8 bit, is larger than 100 million pixels, or has true colour and no
+// channel is named.
+cv::Mat read_grey_image(const std::string& path, const std::string& channel = "");
+
+}  // namespace arcstart::extraction

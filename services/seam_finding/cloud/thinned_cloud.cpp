@@ -1,0 +1,64 @@
+#include "services/seam_finding/cloud/thinned_cloud.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+namespace arcstart::seam_finding {
+namespace {
+
+constexpr double kStep = 1.5;  // mm
+
+bool same_segment(const ScanCloud& scan, int a, int b) {
+  return scan.origins[a].segment == scan.origins[b].segment &&
+         scan.origins[a].stripe == scan.origins[b].stripe;
+}
+
+}  // namespace
+
+void thin(const ScanCloud& scan, ThinnedCloud& thinned) {
+  ScanCloud& few = thinned.cloud;
+  const Eigen::Vector3d* points = scan.points.data();
+  const PointOrigin* origins = scan.origins.data();
+  for (std::size_t k = few.stripes.size(); k < scan.stripes.size(); ++k) {
+    const ScanStripe& stripe = scan.stripes[k];
+    const int end = stripe.first + stripe.count;
+    bool first = true, last = false;        // of a segment
+    const Eigen::Vector3d* kept = nullptr;  // the last one of it
+    for (int i = stripe.first; i < end; ++i, first = last) {
+      last = i + 1 == end || origins[i].segment != origins[i + 1].segment;
+      if (!first && !last && !origins[i].segment_end &&
+          (points[i] - *kept).squaredNorm() < kStep * kStep)
+        continue;
+      kept = &points[i];
+      few.points.push_back(*kept);
+      few.origins.push_back(origins[i]);
+      thinned.places.push_back(i);
+    }
+    end_stripe(few, stripe.seen, stripe.camera_centre, stripe.tool_position);
+  }
+}
+
+std::vector<int> in_whole(const ScanCloud& scan, const ThinnedCloud& thinned,
+                          const std::vector<int>& points, const Plane& plane, double tolerance_mm) {
+  std::vector<int> whole;
+  whole.reserve(scan.points.size() / 2);
+  int taken = -1;  // the last one that was looked at
+  for (const int point : points) {
+    const int own = thinned.places[point];
+    const auto neighbour = [&](int step) {
+      const int next = point + step;
+      return next >= 0 && next < thinned.cloud.size() && same_segment(thinned.cloud, point, next)
+                 ? thinned.places[next]
+                 : own;
+    };
+    const int from = neighbour(-1), to = neighbour(+1);
+    for (int i = std::max(taken + 1, std::min(from + 1, own)); i < std::max(to, own + 1); ++i) {
+      taken = i;
+      if (i == own || std::abs(plane.signed_distance(scan.points[i])) <= tolerance_mm)
+        whole.push_back(i);
+    }
+  }
+  return whole;
+}
+
+}  // namespace arcstart::seam_finding

@@ -1,0 +1,265 @@
+#include "services/seam_finding/ends/crossing_ends.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <optional>
+
+#include "services/seam_finding/ends/edge_crossing.hpp"
+#include "services/seam_finding/ends/end_interval.hpp"
+#include "services/seam_finding/ends/plate_end.hpp"
+#include "services/seam_finding/visibility/occlusion.hpp"
+#include "services/seam_finding/visibility/plate_extent.hpp"
+
+namespace arcstart::seam_finding {
+namespace {
+
+constexpr double kNearSeam = 3, kBeside = 25;  // from the seam in a plate; mm
+constexpr double kStandsBefore = 3;            // mm
+constexpr double kFlushWithin = 0.6;           // mm
+constexpr double kSameEdge = 2.5;              // standard deviations of their difference
+constexpr double kExtent = 0.25;               // px: how well a stripe's last light is known
+constexpr double kUnseen = 2;  // a stripe that leaves a plate so near may not show it; of `near`
+constexpr double kBeyond = 3;  // stripe spacings
+constexpr double kBesideEdge = 3;  // of an edge's places, the plate's own; mm
+constexpr double kFartherOut = 5;  // an edge than a stripe that tells nothing of what is there; mm
+
+// Of the stripes that show the other plate, by which their crossings are known.
+StripeCrossings crossings_of(const ScanCloud& cloud, const Stations& stations, int plate) {
+  StripeCrossings crossings{std::vector<std::optional<double>>(cloud.stripes.size()),
+                            stations.slant[plate]};
+  for (const Station& station : stations.list)
+    if (station.stripe >= 0 && station.known &&
+        station.nearest[1 - plate] <= stations.near[1 - plate])
+      crossings.along[station.stripe] = station.along;
+  return crossings;
+}
+
+// Stripes may end for another reason than the plate's edge: in a shadow, or behind something. What
+// is seen past a plate speaks against a lone one alone.
+bool possible(const PlateEdge& edge, const PlateExtent& extent, double outward) {
+  const double place = outward * edge.along,
+               allowed = kSameEdge * std::hypot(std::sqrt(edge.variance), kExtent * edge.pixel);
+  return place > extent.on - allowed && (edge.stripes > 1 || place < extent.past + allowed);
+}
+
+// Of two plates' edges the lone stripe's that lies inside the other's, which several tell.
+bool ends_early(const PlateEdge& edge, const PlateEdge& other, double outward) {
+  return edge.stripes == 1 && other.stripes > 1 && !other.occluded &&
+         outward * (other.along - edge.along) >
+             kSameEdge * std::sqrt(edge.variance + other.variance);
+}
+
+// Of the stripe right beyond the seam's end that no longer shows a plate: whether the plate is seen
+// to have ended.
+EndVisibility seen_beyond(const ScanCloud& cloud, const Stations& stations,
+                          const std::array<JointPlate, 2>& plates, const Line& line, double end,
+                          double outward, double tolerance) {
+  const Station* next = nullptr;
+  for (const Station& station : stations.list)
+    if (station.known && station.stripe >= 0 && outward * (station.along - end) > 0 &&
+        (next == nullptr || outward * (station.along - next->along) < 0))
+      next = &station;
+  if (next == nullptr) return EndVisibility::kNotDetermined;
+  const ScanStripe& stripe = cloud.stripes[next->stripe];
+  EndVisibility visibility = EndVisibility::kSeen;
+  for (int j = 0; j < 2; ++j) {
+    if (next->nearest[j] <= stations.near[j]) continue;
+    const Eigen::Vector3d away = away_from_seam(plates[j], plates[1 - j]);
+    for (int i = stripe.first; i < stripe.first + stripe.count; ++i) {
+      const double r = away.dot(cloud.points[i] - line.point);
+      if (r < kNearSeam || r > kBeside ||
+          std::abs(plates[1 - j].plane.signed_distance(cloud.points[i])) <= tolerance)
+        continue;
+      // Something stands before the plate, or it is there and was measured badly.
+      const double height = plates[j].plane.signed_distance(cloud.points[i]);
+      if (height > kStandsBefore) return EndVisibility::kHidden;
+      if (height > -kStandsBefore) visibility = EndVisibility::kNotDetermined;
+    }
+  }
+  return visibility;
+}
+
+// One end of a seam. The steps follow each other as they stand.
+class EndFinder {
+ public:
+  EndFinder(const ScanCloud& cloud, const std::array<JointPlate, 2>& plates,
+            const std::array<PlateStripes, 2>& stripes, const Stations& stations, SeamSide side,
+            const EndSearch& search)
+      : cloud_(cloud),
+        plates_(plates),
+        stripes_(stripes),
+        stations_(stations),
+        side_(side),
+        outward_(side == SeamSide::kEnd ? 1 : -1),
+        search_(search) {}
+
+  // About a place between two stripes. Where `reach` is given no stripe shows the seam between the
+  // course and that place, up to which both plates are there.
+  SeamEnd find(double along, std::optional<double> reach = std::nullopt) {
+    extents_ = {};
+    for (int j = 0; j < 2; ++j) {
+      brackets_[j] = bracket_of(stations_, j, along, outward_);
+      if (reach) brackets_[j].inner = *reach;
+    }
+    const double width = std::abs(brackets_[0].outer - brackets_[0].inner);
+    SeamEnd end{along, width * width / 12};
+    end.visibility = EndVisibility::kSeen;
+    for (int j = 0; j < 2; ++j) seek_edge(j, width);
+    // A stripe that shows nothing of a plate behind what hides the seam tells nothing of its end.
+    if (reach)
+      for (EndBracket& bracket : brackets_)
+        bracket.outer = outward_ * std::numeric_limits<double>::infinity();
+    for (int j = 0; j < 2; ++j) compare_with_extent(j, along);
+    for (int j = 0; j < 2; ++j) seek_flush_edge(j);
+    for (int j = 0; j < 2; ++j) drop_early_edge(j);
+    if (edges_[0] || edges_[1]) {
+      by_edges(end);
+      return end;
+    }
+    const auto behind = reach ? std::nullopt : both_reach(along, width);
+    if (behind)  // the stripe that shows a plate so far need not show it at the seam
+      return find(*behind + outward_ * width / 2, behind);
+    between_brackets(end, brackets_, outward_);
+    end.visibility =
+        seen_beyond(cloud_, stations_, plates_, line(), end.along, outward_, search_.tolerance);
+    return end;
+  }
+
+ private:
+  const Line& line() const { return stripes_[0].line; }
+  bool hidden(int j, double along) const {
+    return may_hide(cloud_, plates_[j], plates_[1 - j], line().at(along));
+  }
+
+  void seek_edge(int j, double width) {
+    EdgeSearch& edge = searches_[j];
+    const double margin = unsure_of(stations_, j);
+    const double inner = brackets_[j].inner - outward_ * margin;
+    const double outer = brackets_[j].outer + outward_ * std::max(margin, width);
+    edge.from = std::min(inner, outer);
+    edge.to = std::max(inner, outer);
+    edge.beyond = kBeyond * width;
+    edge.tolerance = search_.tolerance;
+    edge.noise = search_.noise;
+    edge.shortening_px = search_.shortening_px;
+    edge.slope = search_.slope;
+    edges_[j] = find_edge(cloud_, stripes_[j], side_, edge);
+  }
+
+  // Of several stripes' edge no more is asked than whether the plate goes on behind it.
+  void compare_with_extent(int j, double along) {
+    if (!edges_[j] && brackets_[j].runs_on) {
+      // So it says up to the next stripe; the other plate may end much farther out.
+      if (!edges_[1 - j] || outward_ * (edges_[1 - j]->along - brackets_[j].outer) < kFartherOut)
+        return;
+      brackets_[j] = {brackets_[j].inner, outward_ * std::numeric_limits<double>::infinity()};
+    }
+    PlateExtent& extent = extents_[j];
+    const StripeCrossings crossings = crossings_of(cloud_, stations_, j);
+    extent.on = seen_on_plate(cloud_, stripes_[j], side_, along, search_, crossings);
+    if (edges_[j] && edges_[j]->stripes > 1) {
+      // What lies in the plate's plane farther from the seam than they tell its edge may be another
+      // thing.
+      PlateExtent beside = extent;
+      beside.on = seen_on_plate(cloud_, stripes_[j], side_, along, search_, crossings,
+                                edges_[j]->clear_to + kBesideEdge);
+      if (possible(*edges_[j], beside, outward_)) return;
+    }
+    extent = plate_extent(cloud_, stripes_[j], side_, along, search_, crossings);
+    if (edges_[j] && !possible(*edges_[j], extent, outward_)) edges_[j].reset();
+    // Nor, where something is seen past the plate, does one that shows nothing of it behind what
+    // may hide it.
+    if (!brackets_[j].runs_on && std::isfinite(extent.past) && hidden(j, along))
+      brackets_[j].outer = outward_ * std::numeric_limits<double>::infinity();
+    // Where stripes cross the one plate's edge, they may leave this one unseen.
+    const double slant = edges_[1 - j] ? std::max(0.0, outward_ * stations_.slant[j]) : 0;
+    if (!edges_[j])
+      narrow(brackets_[j], extent, unsure_of(stations_, j), kUnseen * stations_.near[j] * slant,
+             outward_);
+  }
+
+  // Of single stripes, the one that agrees with the other plate's edge.
+  void seek_flush_edge(int j) {
+    if (!edges_[0] || !edges_[1] || edges_[j]->stripes > 1 || edges_[1 - j]->stripes < 2) return;
+    searches_[j].beyond = 0;
+    searches_[j].from = edges_[1 - j]->along - kFlushWithin;
+    searches_[j].to = edges_[1 - j]->along + kFlushWithin;
+    if (const auto flush = find_edge(cloud_, stripes_[j], side_, searches_[j])) edges_[j] = flush;
+  }
+
+  // A lone stripe that ends before the other plate does may end in a shadow, or behind something:
+  // the plate reaches at least so far.
+  void drop_early_edge(int j) {
+    if (!edges_[0] || !edges_[1] || !ends_early(*edges_[j], *edges_[1 - j], outward_)) return;
+    const PlateEdge& edge = *edges_[j];
+    const Eigen::Vector3d place = line().at(edge.along) + edge.away * stripes_[j].away;
+    if (!edge.occluded && !may_hide(cloud_, plates_[j], plates_[1 - j], place)) return;
+    extents_[j].on = std::max(extents_[j].on, outward_ * edge.along);
+    narrow(brackets_[j], extents_[j], unsure_of(stations_, j), 0, outward_);
+    edges_[j].reset();
+  }
+
+  void by_edges(SeamEnd& end) const {
+    PlateEdge edge = edges_[0] ? *edges_[0] : *edges_[1];
+    if (edges_[0] && edges_[1]) {
+      const PlateEdge &a = *edges_[0], &b = *edges_[1];
+      edge = outward_ * a.along < outward_ * b.along ? a : b;
+      if (a.occluded == b.occluded) {
+        const CommonEnd both = end_of_both(a, b, side_);
+        edge.along = both.along, edge.variance = both.variance;
+      }
+    }
+    end.by_edges = true;
+    end.along = edge.along;
+    end.variance = edge.variance;
+    for (int j = 0; j < 2; ++j) {
+      if (edges_[j] || brackets_[j].runs_on) continue;
+      limit_by_bracket(end, brackets_[j], outward_);
+      if (end.along != edge.along && hidden(j, end.along))
+        end.visibility = EndVisibility::kNotDetermined;
+    }
+    if (edge.occluded) end.visibility = EndVisibility::kHidden;
+  }
+
+  // How far both plates are seen to reach, along the line, where that is behind something that
+  // hides the seam; nothing where it is not, or no farther than `end` by more than `width`.
+  std::optional<double> both_reach(double end, double width) const {
+    if (!stands_before(cloud_, plates_, line(), stations_, end, kBeside)) return std::nullopt;
+    double reach = std::numeric_limits<double>::infinity();
+    for (int j = 0; j < 2; ++j)
+      reach = std::min(reach, seen_on_plate(cloud_, stripes_[j], side_, end, search_,
+                                            crossings_of(cloud_, stations_, j)));
+    if (!(reach > outward_ * end + width)) return std::nullopt;
+    return outward_ * reach;
+  }
+
+  const ScanCloud& cloud_;
+  const std::array<JointPlate, 2>& plates_;
+  const std::array<PlateStripes, 2>& stripes_;
+  const Stations& stations_;
+  SeamSide side_;
+  double outward_;  // places times this rise outward
+  const EndSearch& search_;
+  std::array<EndBracket, 2> brackets_;
+  std::array<EdgeSearch, 2> searches_;
+  std::array<std::optional<PlateEdge>, 2> edges_;
+  std::array<PlateExtent, 2> extents_;
+};
+
+}  // namespace
+
+SeamEnd find_end(const ScanCloud& cloud, const std::array<JointPlate, 2>& plates,
+                 const Course& course, const std::array<PlateStripes, 2>& stripes, SeamSide side,
+                 const EndSearch& search) {
+  const bool begin = side == SeamSide::kBegin;
+  const double along = begin ? course.begin : course.end;
+  if (!(begin ? course.begins_outside : course.ends_outside))
+    return EndFinder(cloud, plates, stripes, course.stations, side, search).find(along);
+  const EndBracket bracket = bracket_of(course.stations, 0, along, begin ? -1 : 1);
+  SeamEnd end{along, std::pow(bracket.outer - bracket.inner, 2) / 12};
+  end.visibility = EndVisibility::kOutside;
+  return end;
+}
+
+}  // namespace arcstart::seam_finding

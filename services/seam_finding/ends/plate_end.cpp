@@ -1,0 +1,206 @@
+#include "services/seam_finding/ends/plate_end.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+#include <utility>
+#include <vector>
+
+#include "services/seam_finding/ends/edge_crossing.hpp"
+
+namespace arcstart::seam_finding {
+namespace {
+
+using Places = std::vector<EdgePlace>;
+
+constexpr double kMostSlope = 0.01;  // of one edge, where its places tell it; mm along per mm away
+constexpr double kAgree = 0.35;      // places on one edge, along the seam; mm
+constexpr double kLeastNoise = 0.015;  // of a place along the seam, standard deviation; mm
+constexpr int kPriorPlaces = 2;        // with that noise, in the estimate of the noise
+constexpr double kFloor = 0.01;        // of an edge, whatever the number of its places; mm
+// And for light ends over edges in many ways, alike in all its places; px square to the edge.
+constexpr double kCommonDeviation = 0.1;
+constexpr std::size_t kTellSlope = 4;    // places
+constexpr double kPlainly = 2;           // times less do they scatter then, and more before
+constexpr double kApart = 3;             // places that tell a slope; mm
+constexpr int kSharpBeyond = 2;          // places
+constexpr double kOutlier = 3;           // standard deviations
+constexpr double kNormalMedian = 1.483;  // standard deviation over the median of absolute values
+constexpr double kNearSeam = 3;          // of it stripes turn into the other plate; mm
+constexpr double kFarEdge = 3;  // a stripe that ends so near the plate's far edge ends there; mm
+// Odds that plates are cut flush (3 to 7), times the way over which others' edges scatter about
+// each other (13), over the root of 2 pi; mm.
+constexpr double kFlushOdds = 2.3;
+
+double variance_of(const EdgePlace& place, double noise) {
+  return noise * noise + place.deviation * place.deviation;
+}
+
+// along = at_seam + slope * away
+struct EdgeFit {
+  double at_seam = 0, slope = 0, variance = 0;
+};
+double off_edge(const EdgePlace& place, const EdgeFit& fit) {
+  return std::abs(place.along - fit.at_seam - fit.slope * place.away);
+}
+
+// By weighted least squares, the slope held near zero: its standard deviation.
+EdgeFit fit_edge(const Places& places, double noise, double slope) {
+  double w = 0, r = 0, t = 0, rr = 0, rt = 0;
+  for (const EdgePlace& place : places) {
+    const double weight = 1 / variance_of(place, noise);
+    w += weight, r += weight * place.away, t += weight * place.along;
+    rr += weight * place.away * place.away, rt += weight * place.away * place.along;
+  }
+  rr += 1 / (slope * slope);
+  const double determinant = w * rr - r * r;
+  return {(t * rr - r * rt) / determinant, (w * rt - r * t) / determinant, rr / determinant};
+}
+
+// The median; of an even number the upper of the two in the middle.
+double median(std::vector<double> values) {
+  const auto middle = values.begin() + std::ssize(values) / 2;
+  std::nth_element(values.begin(), middle, values.end());
+  return *middle;
+}
+template <class Value>
+double middle_of(const Places& places, Value value) {
+  std::vector<double> values;
+  values.reserve(places.size());
+  for (const EdgePlace& place : places) values.push_back(value(place));
+  return median(std::move(values));
+}
+
+// Standard deviations: of the places about an edge, and what is known of them one by one.
+double spread_about(const Places& places, const EdgeFit& fit) {
+  return kNormalMedian *
+         middle_of(places, [&fit](const EdgePlace& place) { return off_edge(place, fit); });
+}
+double known_to(const Places& places) {
+  return middle_of(places, [](const EdgePlace& place) { return place.deviation; });
+}
+
+// Square to the seam through the middle place, so that one that is off draws no edge to it; at the
+// middle slope of all their pairs (Theil and Sen) where enough of them tell that one plainly.
+EdgeFit through_the_middle(const Places& places) {
+  const EdgeFit square{middle_of(places, [](const EdgePlace& place) { return place.along; }), 0, 0};
+  const double spread = spread_about(places, square);
+  if (places.size() < kTellSlope || spread < kPlainly * std::hypot(known_to(places), kLeastNoise))
+    return square;
+  std::vector<double> slopes;
+  for (const EdgePlace& a : places)
+    for (const EdgePlace& b : places)
+      if (b.away - a.away > kApart) slopes.push_back((b.along - a.along) / (b.away - a.away));
+  if (slopes.size() < places.size()) return square;
+  EdgeFit askew{0, median(std::move(slopes)), 0};
+  askew.at_seam = middle_of(
+      places, [&](const EdgePlace& place) { return place.along - askew.slope * place.away; });
+  return kPlainly * spread_about(places, askew) < spread ? askew : square;
+}
+
+// Places of one edge; several that are sharp tell a plate's edge also where it was not expected.
+Places largest_agreement(const Places& places, const EdgeSearch& search) {
+  const double most_slope = std::max(kMostSlope, search.slope);
+  Places best;
+  double most = 0;
+  for (const EdgePlace& one : places) {
+    if (one.along < search.from - search.beyond || one.along > search.to + search.beyond) continue;
+    Places together;
+    double weight = 0;
+    int sharp = 0;
+    for (const EdgePlace& other : places) {
+      const double allowed = kAgree + 2 * std::hypot(most_slope * (one.away - other.away),
+                                                     one.deviation, other.deviation);
+      if (std::abs(one.along - other.along) > allowed) continue;
+      together.push_back(other);
+      weight += kAgree / (kAgree + other.deviation);
+      sharp += other.sharp;
+    }
+    const bool expected = one.along >= search.from && one.along <= search.to;
+    if ((expected || sharp >= kSharpBeyond) && weight > most)
+      most = weight, best = std::move(together);
+  }
+  return best;
+}
+
+}  // namespace
+
+std::optional<PlateEdge> find_edge(const ScanCloud& cloud, const PlateStripes& stripes,
+                                   SeamSide side, const EdgeSearch& search) {
+  Places places;
+  // What lies farther from the seam is the plate's other edge, along the seam.
+  const double far = stripes.reach - kFarEdge;
+  for (const auto& run : stripes.runs)
+    if (const auto place = edge_place(cloud, run, stripes, side, search))
+      if (place->away < far && (place->sharp || place->away > kNearSeam)) places.push_back(*place);
+  Places on_edge = largest_agreement(places, search);
+  // What is seen of the plate before something else tells no more than that it reaches so far.
+  const auto clear = [](const EdgePlace& place) { return place.sharp && !place.occluded; };
+  if (2 * std::count_if(on_edge.begin(), on_edge.end(), clear) >=
+      static_cast<std::ptrdiff_t>(on_edge.size()))
+    std::erase_if(on_edge, [](const EdgePlace& place) { return place.occluded; });
+  // A lone stripe that ends beside the seam, or cannot be seen to, ends for another reason.
+  if (on_edge.size() == 1 && (on_edge[0].away <= kNearSeam || !on_edge[0].sharp))
+    return std::nullopt;
+
+  if (on_edge.empty()) return std::nullopt;
+
+  EdgeFit fit = through_the_middle(on_edge);
+  const double slope = fit.slope == 0 ? search.slope : std::max(kMostSlope, search.slope);
+  for (int pass = 0; pass < 3; ++pass) {
+    const double spread = spread_about(on_edge, fit), known = known_to(on_edge);
+    const auto count = static_cast<double>(on_edge.size());
+    const double noise = std::sqrt((kPriorPlaces * kLeastNoise * kLeastNoise +
+                                    count * std::max(0.0, spread * spread - known * known)) /
+                                   (kPriorPlaces + count - 1));
+    std::erase_if(on_edge, [&](const EdgePlace& place) {
+      return off_edge(place, fit) > kOutlier * std::sqrt(variance_of(place, noise));
+    });
+    if (on_edge.empty()) return std::nullopt;
+    fit = fit_edge(on_edge, noise, slope);
+  }
+  PlateEdge edge;
+  edge.along = fit.at_seam;
+  const auto mean = [&on_edge](double EdgePlace::*value) {
+    double sum = 0;
+    for (const EdgePlace& place : on_edge) sum += place.*value;
+    return sum / static_cast<double>(on_edge.size());
+  };
+  edge.away = mean(&EdgePlace::away);
+  edge.pixel = mean(&EdgePlace::pixel);
+  edge.variance = fit.variance + kFloor * kFloor + std::pow(kCommonDeviation * edge.pixel, 2);
+  edge.stripes = static_cast<int>(on_edge.size());
+  const auto occluded =
+      std::count_if(on_edge.begin(), on_edge.end(), [](const EdgePlace& p) { return p.occluded; });
+  edge.occluded = 2 * occluded > edge.stripes;
+  if (std::count_if(on_edge.begin(), on_edge.end(), clear) > 1)
+    edge.clear_to =
+        std::max_element(on_edge.begin(), on_edge.end(),
+                         [](const EdgePlace& a, const EdgePlace& b) { return a.away < b.away; })
+            ->away;
+  return edge;
+}
+
+CommonEnd end_of_both(const PlateEdge& a, const PlateEdge& b, SeamSide side) {
+  const double outward = side == SeamSide::kEnd ? 1 : -1;
+  const double variance = a.variance + b.variance, deviation = std::sqrt(variance);
+  const double apart = outward * (b.along - a.along) / deviation;
+  const double chance = std::exp(-apart * apart / 2);
+  const double flush = 1 / (1 + deviation / (kFlushOdds * chance));
+  const CommonEnd one{(a.along * b.variance + b.along * a.variance) / variance,
+                      a.variance * b.variance / variance};
+  // The lesser of two normal distributions (Clark 1961), from `a` outward.
+  const double a_first = 0.5 * std::erfc(-apart / std::numbers::sqrt2), b_first = 1 - a_first;
+  const double way = outward * (b.along - a.along);
+  const double spread = deviation * chance / std::sqrt(2 * std::numbers::pi);
+  const double mean = way * b_first - spread;
+  const double square = a.variance * a_first + (way * way + b.variance) * b_first - way * spread;
+  const CommonEnd lesser{a.along + outward * mean, square - mean * mean};
+
+  CommonEnd end{flush * one.along + (1 - flush) * lesser.along, 0};
+  end.variance = flush * (one.variance + std::pow(one.along - end.along, 2)) +
+                 (1 - flush) * (lesser.variance + std::pow(lesser.along - end.along, 2));
+  return end;
+}
+
+}  // namespace arcstart::seam_finding

@@ -1,0 +1,62 @@
+#include "services/seam_finding/fit/line_fit.hpp"
+
+#include <Eigen/Dense>
+#include <algorithm>
+#include <cmath>
+
+namespace arcstart::seam_finding {
+namespace {
+
+constexpr double kTukey = 4.685;               // standard deviations
+constexpr double kMedianToDeviation = 1.4826;  // of normal noise
+constexpr int kPasses = 12;
+constexpr int kLeastPlaces = 4;
+
+}  // namespace
+
+std::optional<BorderFit> fit_border(const std::vector<BorderPlace>& places, double lean_deviation) {
+  if (static_cast<int>(places.size()) < kLeastPlaces) return std::nullopt;
+  BorderFit fit;
+  for (const BorderPlace& place : places)
+    fit.middle += place.along / static_cast<double>(places.size());
+  std::vector<double> weights(places.size(), 1);
+  double scale = 1;  // of the residuals over their deviations, standard
+  Eigen::Matrix3d inverse = Eigen::Matrix3d::Zero();
+  for (int pass = 0; pass < kPasses; ++pass) {
+    Eigen::Matrix3d normal = Eigen::Matrix3d::Zero();
+    Eigen::Vector3d right = Eigen::Vector3d::Zero();
+    for (std::size_t i = 0; i < places.size(); ++i) {
+      const Eigen::Vector3d row(1, places[i].along - fit.middle, places[i].height);
+      const double weight = weights[i] / (places[i].deviation * places[i].deviation);
+      normal += weight * row * row.transpose();
+      right += weight * places[i].across * row;
+    }
+    normal(2, 2) += 1 / (lean_deviation * lean_deviation);
+    if (!(std::abs(normal.determinant()) > 1e-12)) return std::nullopt;
+    inverse = normal.inverse();
+    const Eigen::Vector3d solution = inverse * right;
+    fit.at_middle = solution[0], fit.slope = solution[1], fit.lean = solution[2];
+
+    std::vector<double> residuals;
+    for (const BorderPlace& place : places)
+      residuals.push_back((place.across - fit.across_at(place.along) - fit.lean * place.height) /
+                          place.deviation);
+    std::vector<double> sizes = residuals;
+    for (double& size : sizes) size = std::abs(size);
+    const auto median = sizes.begin() + static_cast<std::ptrdiff_t>(sizes.size() / 2);
+    std::nth_element(sizes.begin(), median, sizes.end());
+    scale = std::max(1.0, kMedianToDeviation * *median);
+    fit.places = 0;
+    for (std::size_t i = 0; i < places.size(); ++i) {
+      const double off = residuals[i] / (kTukey * scale);
+      weights[i] = std::abs(off) < 1 ? (1 - off * off) * (1 - off * off) : 0;
+      fit.places += weights[i] > 0.1;
+    }
+    if (fit.places < kLeastPlaces) return std::nullopt;
+  }
+  fit.variance = scale * scale * inverse(0, 0);
+  fit.slope_variance = scale * scale * inverse(1, 1);
+  return fit;
+}
+
+}  // namespace arcstart::seam_finding

@@ -1,0 +1,245 @@
+#include "services/seam_finding/joints/crossing_joints.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <optional>
+
+#include "services/seam_finding/coverage/coverage.hpp"
+
+namespace arcstart::seam_finding {
+namespace {
+
+constexpr double kDegree = M_PI / 180;
+constexpr double kBeside = 25;     // a joint is judged by what lies so near the line; mm
+constexpr double kFullReach = 10;  // a plate that reaches so far from the seam counts in full; mm
+// Outside a corner a plate reaches so far, else it is the cut of the other; mm.
+constexpr double kLeastOutside = 22;
+constexpr double kLeastConcave = 0.8;
+constexpr double kInUnder =
+    3.5;  // a plate is seen so far in under the other through a root gap; mm
+constexpr double kLeastExplained = 0.5;
+constexpr double kNoComponent = 0.05;  // of a unit direction that only noise gives a sign
+constexpr double kSamePlane = 2 * kDegree;
+constexpr double kSameDirection = 3 * kDegree;
+constexpr double kAssumedViewSlant = 20 * kDegree;  // between an assumed viewpoint and a face
+constexpr double kGivenViewSlant = 5 * kDegree;     // between a given one and a face
+
+bool touches(const ScanCloud& cloud, const std::vector<int>& points, const Line& line,
+             double distance) {
+  return std::any_of(points.begin(), points.end(),
+                     [&](int i) { return line.distance(cloud.points[i]) <= distance; });
+}
+
+// A face with points far apart is at the seam though none comes very near it.
+double contact_of(const Face& face, const JointSearch& search) {
+  return std::max(search.contact, 2 * face.spacing);
+}
+
+Eigen::Vector3d middle(const ScanCloud& cloud, const std::vector<int>& points) {
+  Eigen::Vector3d sum = Eigen::Vector3d::Zero();
+  for (const int i : points) sum += cloud.points[i];
+  return sum / static_cast<double>(points.size());
+}
+
+// A plate may show as several faces in one plane, parted by a shadow or by lost stripes.
+std::vector<int> with_pieces_of_the_plane(const ScanCloud& cloud, const std::vector<Face>& faces,
+                                          int face, const Line& line, const JointSearch& search) {
+  std::vector<int> points = faces[face].points;
+  for (int k = 0; k < static_cast<int>(faces.size()); ++k) {
+    if (k == face || faces[k].plane.normal.dot(faces[face].plane.normal) < std::cos(kSamePlane))
+      continue;
+    if (std::abs(faces[face].plane.signed_distance(middle(cloud, faces[k].points))) >
+        2 * search.tolerance)
+      continue;
+    if (!touches(cloud, faces[k].points, line, contact_of(faces[k], search))) continue;
+    const auto own = static_cast<std::ptrdiff_t>(points.size());
+    points.insert(points.end(), faces[k].points.begin(), faces[k].points.end());
+    std::inplace_merge(points.begin(), points.begin() + own, points.end());
+  }
+  return without_scraps(cloud, points);
+}
+
+// Of a plate's points beside the seam: the share on the right side of the other plate, and how far
+// they reach from the line.
+struct Beside {
+  double before = 0;  // of what touches the line; 0..1
+  double reach = 0;   // three quarters of the points are nearer; mm
+  double whole = 0;   // nine tenths of all the plate's points there are nearer; mm
+};
+double quantile(std::vector<double>& values, std::size_t part, std::size_t of) {
+  if (values.empty()) return 0;
+  const auto place = values.begin() + static_cast<std::ptrdiff_t>(part * values.size() / of);
+  std::nth_element(values.begin(), place, values.end());
+  return *place;
+}
+
+Beside look_beside(const ScanCloud& cloud, const Joint& joint, int plate, double tolerance) {
+  const bool outside = joint.type == JointType::kOutsideCorner;
+  int before = 0, behind = 0;
+  std::vector<double> distances, all;
+  for (const int i : joint.plates[plate].points) {
+    const Eigen::Vector3d& point = cloud.points[i];
+    const double t = joint.line.along(point), r = joint.line.distance(point);
+    if (t < joint.course.begin || t > joint.course.end) continue;
+    all.push_back(r);
+    if (r > kBeside) continue;
+    distances.push_back(r);
+    // What lies farther behind may be the plate going on beyond the other's thickness.
+    if (r > joint.plates[plate].contact) continue;
+    const double side = (outside ? -1 : 1) * joint.plates[1 - plate].plane.signed_distance(point);
+    before += side > tolerance;
+    behind += side < -(outside ? tolerance : std::max(tolerance, kInUnder));
+  }
+  Beside beside;
+  if (before > 0) beside.before = static_cast<double>(before) / (before + behind);
+  beside.reach = quantile(distances, 3, 4);
+  beside.whole = quantile(all, 9, 10);
+  return beside;
+}
+
+// In clutter planes can be laid through much; at a joint they account for what is there.
+double explained_share(const ScanCloud& cloud, const std::vector<int>& left, const Joint& joint,
+                       double tolerance) {
+  int all = 0, explained = 0;
+  for (const int i : left) {
+    const Eigen::Vector3d& point = cloud.points[i];
+    const double t = joint.line.along(point);
+    if (t < joint.course.begin || t > joint.course.end || joint.line.distance(point) > kBeside)
+      continue;
+    ++all;
+    explained += std::abs(joint.plates[0].plane.signed_distance(point)) <= tolerance ||
+                 std::abs(joint.plates[1].plane.signed_distance(point)) <= tolerance;
+  }
+  return all > 0 ? static_cast<double>(explained) / all : 0;
+}
+
+void judge(const ScanCloud& cloud, const std::vector<int>& left, Joint& joint,
+           const JointSearch& search) {
+  joint.course = find_course(cloud, joint.plates, joint.line, search.course);
+  const Course& course = joint.course;
+  if (course.stripes == 0) {
+    joint.flaw = "the plates do not touch";
+    return;
+  }
+  const Beside first = look_beside(cloud, joint, 0, search.tolerance);
+  const Beside second = look_beside(cloud, joint, 1, search.tolerance);
+  joint.concavity = std::min(first.before, second.before);
+  joint.explained = explained_share(cloud, left, joint, search.tolerance);
+  const bool outside = joint.type == JointType::kOutsideCorner;
+  const double angle = plates_angle(joint);
+  const double off = (angle - search.angle) / search.angle_tolerance;
+  joint.score = course.covered * joint.explained * joint.explained * joint.concavity *
+                joint.concavity * std::min(1.0, first.reach / kFullReach) *
+                std::min(1.0, second.reach / kFullReach) * std::max(0.0, 1 - off * off / 2);
+  if (std::abs(off) > 1)
+    joint.flaw = fmt::format("its angle is {:.1f} deg", angle / kDegree);
+  else if (joint.concavity < kLeastConcave)
+    joint.flaw = outside ? "its edge is not convex" : "its edge is not concave";
+  else if (outside && std::min(first.whole, second.whole) < kLeastOutside)
+    joint.flaw = "it is the edge of one plate";
+  else if (joint.explained < kLeastExplained)
+    joint.flaw = "too much else lies around it";
+  else if (cloud.organised() && course.stripes < search.stripes_min)
+    joint.flaw = fmt::format("only {} stripes cross both plates", course.stripes);
+  else if (course.covered < search.length_min)
+    joint.flaw = fmt::format("both plates were seen on {:.0f} mm only", course.covered);
+}
+
+// Along the search direction; without one toward increasing x, then y, then z.
+Eigen::Vector3d along_search(const ScanCloud& cloud, const Eigen::Vector3d& direction) {
+  if (const auto search = search_direction(cloud);
+      search && std::abs(search->dot(direction)) > 1e-6)
+    return search->dot(direction) < 0 ? Eigen::Vector3d(-direction) : direction;
+  for (const double component : direction)
+    if (std::abs(component) > kNoComponent)
+      return component < 0 ? Eigen::Vector3d(-direction) : direction;
+  return direction;
+}
+
+std::optional<Joint> pair_up(const ScanCloud& cloud, const std::vector<int>& left,
+                             const std::vector<Face>& faces, int a, int b,
+                             const std::vector<bool>& certain, const JointSearch& search) {
+  const double fold =
+      std::acos(std::min(1.0, std::abs(faces[a].plane.normal.dot(faces[b].plane.normal))));
+  // Eq. 6 with the sign of the normals left open; 10 deg more, so that near misses are listed with
+  // their flaw.
+  const double least =
+      std::min(std::abs(fold - search.angle), std::abs(M_PI - fold - search.angle));
+  if (least > search.angle_tolerance + 10 * kDegree) return std::nullopt;
+  const auto line = intersect(faces[a].plane, faces[b].plane, middle(cloud, faces[a].points));
+  if (!line || !touches(cloud, faces[a].points, *line, contact_of(faces[a], search)) ||
+      !touches(cloud, faces[b].points, *line, contact_of(faces[b], search)))
+    return std::nullopt;
+  Joint joint;
+  joint.type = search.type;
+  joint.faces = {a, b};
+  joint.line = *line;
+  joint.line.direction = along_search(cloud, line->direction);
+  for (int j = 0; j < 2; ++j) {
+    joint.plates[j].plane = faces[joint.faces[j]].plane;
+    joint.plates[j].contact = contact_of(faces[joint.faces[j]], search);
+    joint.plates[j].points = with_pieces_of_the_plane(cloud, faces, joint.faces[j], *line, search);
+  }
+  const auto measure = [&](Joint& j) {
+    j.angle = open_angle(j);
+    if (j.type == JointType::kOutsideCorner)
+      for (int k = 0; k < 2; ++k) j.plates[k].away = -j.plates[1 - k].plane.normal;
+    judge(cloud, left, j, search);
+  };
+  const int doubtful = certain[a] == certain[b] ? -1 : certain[a] ? 1 : 0;
+  Joint turned = joint;
+  measure(joint);
+  if (doubtful >= 0) {
+    // The side of one face was not seen for certain, that of the other was: the reading that makes
+    // a joint holds.
+    turned.plates[doubtful].plane = turned.plates[doubtful].plane.flipped();
+    measure(turned);
+    if (turned.score > joint.score) return turned;
+  }
+  return joint;
+}
+
+}  // namespace
+
+std::vector<bool> turn_to_sensor(const ScanCloud& cloud, std::vector<Face>& faces) {
+  std::vector<bool> certain;
+  for (Face& face : faces) {
+    double sum = 0;
+    for (const int i : face.points)
+      sum += face.plane.normal.dot((cloud.seen_from(i) - cloud.points[i]).normalized());
+    if (sum < 0) face.plane = face.plane.flipped();
+    const double slant =
+        std::asin(std::min(1.0, std::abs(sum) / static_cast<double>(face.points.size())));
+    certain.push_back(cloud.organised() ||
+                      slant > (cloud.viewpoint_known ? kGivenViewSlant : kAssumedViewSlant));
+  }
+  return certain;
+}
+
+std::vector<Joint> rank_joints(const ScanCloud& cloud, const std::vector<int>& left,
+                               const std::vector<Face>& faces, const std::vector<bool>& certain,
+                               const JointSearch& search) {
+  std::vector<Joint> joints;
+  for (int a = 0; a < static_cast<int>(faces.size()); ++a)
+    for (int b = a + 1; b < static_cast<int>(faces.size()); ++b)
+      if (auto joint = pair_up(cloud, left, faces, a, b, certain, search))
+        joints.push_back(std::move(*joint));
+  sort_by_score(joints);
+  return joints;
+}
+
+void sort_by_score(std::vector<Joint>& joints) {
+  std::stable_sort(joints.begin(), joints.end(), [](const Joint& a, const Joint& b) {
+    if (a.flaw.empty() != b.flaw.empty()) return a.flaw.empty();
+    return a.score > b.score;
+  });
+}
+
+bool same_seam(const Joint& a, const Joint& b, double tolerance_mm) {
+  return std::abs(a.line.direction.dot(b.line.direction)) > std::cos(kSameDirection) &&
+         a.line.distance(b.line.at((b.course.begin + b.course.end) / 2)) < tolerance_mm;
+}
+
+}  // namespace arcstart::seam_finding

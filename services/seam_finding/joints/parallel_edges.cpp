@@ -1,0 +1,235 @@
+#include "services/seam_finding/joints/parallel_edges.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "services/seam_finding/gaps/butt_gap.hpp"
+
+namespace arcstart::seam_finding {
+namespace {
+
+constexpr double kSquareCut = 0.1;  // standard deviation of a lap's cut, mm across for each mm up
+constexpr double kFreeCut = 3;      // of a cut of which nothing is known
+constexpr double kJumpDeviation = 0.3;  // of a segment's last centre from the edge it leaves; mm
+constexpr double kCutDeviation = 0.1;   // of a point on a cut across; mm
+constexpr double kLeastDepth = 1.5;     // of a cut by which its slant is known; mm
+constexpr std::size_t kLeastCut = 6;    // points on a cut
+constexpr double kOffPlate = 1.25;      // a cut's points over what lies on the plates
+constexpr double kNear = 4;             // `near_mm`, in deviations of a point from its plate
+constexpr double kWidest = 4;           // of a narrow gap; mm
+constexpr double kBeside = 4;           // it is sought among what lies so near; mm
+constexpr double kSlanting = 0.2;       // a cut from the plate's normal; rad
+constexpr double kLeastNoise = 0.06;    // beside a gap the light of both plates mingles; mm
+constexpr double kSteepest = 0.15;      // sight into it; mm across for each mm down
+constexpr double kOneLevel = 1;         // between the tops of its plates; mm
+
+int neighbour(const Passage& passage, int plate) {
+  return plate == 0 ? passage.last : passage.first;
+}
+
+// The points that follow on a plate's last one in the same segment, outward, as long as they fall.
+std::vector<int> falling(const ScanCloud& cloud, const Passage& passage, const Plane& plane,
+                         int plate) {
+  std::vector<int> run;
+  int before = neighbour(passage, plate);
+  double height = plane.signed_distance(cloud.points[before]);
+  const auto take = [&](int i) {
+    const double h = plane.signed_distance(cloud.points[i]);
+    if (cloud.organised() && cloud.origins[i].segment != cloud.origins[before].segment)
+      return false;
+    if (h > height) return false;
+    run.push_back(i), before = i, height = h;
+    return true;
+  };
+  if (plate == 0) {
+    for (auto i = passage.between.begin(); i != passage.between.end() && take(*i); ++i) {
+    }
+  } else {
+    for (auto i = passage.between.rbegin(); i != passage.between.rend() && take(*i); ++i) {
+    }
+  }
+  return run;
+}
+
+// What follows on a plate's last point, outward; -1 where it lies in another segment.
+int follower(const ScanCloud& cloud, const Passage& passage, int plate) {
+  const int own = neighbour(passage, plate);
+  int next = neighbour(passage, 1 - plate);
+  if (!passage.between.empty())
+    next = plate == 0 ? passage.between.front() : passage.between.back();
+  const bool joined =
+      cloud.organised() && cloud.origins[next].segment == cloud.origins[own].segment;
+  return joined ? next : -1;
+}
+
+// Where the plate ends by its last point alone: at a segment's end, or before what follows on it.
+BorderPlace end_place(const ScanCloud& cloud, const Passage& passage, const PlateFrame& frame,
+                      int plate, int next, double pitch_mm) {
+  const int own = neighbour(passage, plate);
+  const Eigen::Vector3d p = frame.of(cloud.points[own]);
+  const double outward = plate == 0 ? 1 : -1;
+  BorderPlace place{p.x(), p.y(), 0, kJumpDeviation};
+  if (cloud.origins[own].segment_end) return place;
+  double step = pitch_mm;
+  if (next >= 0) step = std::abs(frame.of(cloud.points[next]).y() - p.y());
+  place.across += outward * step / 2;
+  place.deviation = std::max(kCutDeviation, step / std::sqrt(12.0));
+  return place;
+}
+
+// Where the light ends at the other plate's edge and goes on down on this one's cut, seen past that
+// edge: the end of the piece that leads up to this plate; -1 where it is not so.
+int end_on_cut(const ScanCloud& cloud, const Passage& passage, const Plane& plane, int plate,
+               double near_mm) {
+  const int own = neighbour(passage, plate), other = neighbour(passage, 1 - plate);
+  if (!cloud.organised() || passage.between.empty()) return -1;
+  const int end = plate == 0 ? passage.between.back() : passage.between.front();
+  const PointOrigin& origin = cloud.origins[end];
+  const bool parted = cloud.origins[other].segment_end && origin.segment_end &&
+                      origin.segment == cloud.origins[own].segment &&
+                      origin.segment != cloud.origins[other].segment;
+  return parted && plane.signed_distance(cloud.points[end]) < -near_mm ? end : -1;
+}
+
+// Whether the stripes run through the gap in one piece, so that they end at neither plate.
+bool run_through(const ScanCloud& cloud, const std::vector<Passage>& passages) {
+  const auto through = [&](const Passage& passage) {
+    return !cloud.origins[passage.last].segment_end && !cloud.origins[passage.first].segment_end;
+  };
+  return 2 * std::count_if(passages.begin(), passages.end(), through) > std::ssize(passages);
+}
+
+// All that stripes show between the first and the last of the passages and near their line; and how
+// the line of sight runs there, mm across for each mm down.
+std::pair<std::vector<SeenPlace>, double> seen_near(const ScanCloud& cloud,
+                                                    const std::vector<Passage>& passages,
+                                                    const PlateFrame& frame,
+                                                    const std::array<Plane, 2>& planes,
+                                                    const NarrowGapSearch& rough) {
+  double from = std::numeric_limits<double>::infinity(), to = -from;
+  for (const Passage& passage : passages) {
+    const double along = frame.of(cloud.points[passage.last]).x();
+    from = std::min(from, along), to = std::max(to, along);
+  }
+  std::vector<SeenPlace> places;
+  double across = 0, down = 0;
+  for (int i = 0; i < cloud.size(); ++i) {
+    const Eigen::Vector3d& point = cloud.points[i];
+    const Eigen::Vector3d p = frame.of(point);
+    const double beside = p.y() - rough.across - rough.slope * (p.x() - rough.middle);
+    if (std::abs(beside) > kBeside || p.x() < from || p.x() > to || std::abs(p.z()) > 2 * kBeside)
+      continue;
+    const Plane& plane = planes[beside > 0];
+    const double height = plane.signed_distance(point);
+    const Eigen::Vector3d sight = point - cloud.seen_from(i);
+    const Eigen::Vector3d top = frame.of(point - height / plane.normal.dot(sight) * sight);
+    places.push_back({top.x(), top.y(), height});
+    across += frame.across.dot(sight), down -= frame.normal.dot(sight);
+  }
+  return {places, down > 0 ? across / down : 0};
+}
+
+// Both borders by all stripes together, where the plates lie at one level and are seen into
+// between.
+std::optional<std::array<BorderFit, 2>> narrow_borders(const ScanCloud& cloud,
+                                                       const std::vector<Passage>& passages,
+                                                       const PlateFrame& frame,
+                                                       const std::array<Plane, 2>& planes,
+                                                       const BorderFit& first,
+                                                       const BorderFit& second, double near_mm) {
+  NarrowGapSearch search;
+  search.middle = first.middle;
+  search.across = (first.at_middle + second.across_at(first.middle)) / 2;
+  search.slope = (first.slope + second.slope) / 2;
+  search.noise = std::max(kLeastNoise, near_mm / kNear);
+  const Eigen::Vector3d at =
+      frame.origin + search.middle * frame.along + search.across * frame.across;
+  if (std::abs(planes[0].signed_distance(at) - planes[1].signed_distance(at)) > kOneLevel)
+    return std::nullopt;
+  const auto [places, sight] = seen_near(cloud, passages, frame, planes, search);
+  search.sight = sight;
+  if (!(std::abs(sight) > kSteepest)) return std::nullopt;
+  return fit_narrow_gap(places, search);
+}
+
+}  // namespace
+
+FlatBorders borders_of(const ScanCloud& cloud, const std::vector<Passage>& passages,
+                       const PlateFrame& frame, const std::array<Plane, 2>& planes, double near_mm,
+                       double pitch_mm) {
+  FlatBorders borders;
+  for (int plate = 0; plate < 2; ++plate) {
+    std::vector<BorderPlace> ends, cut, ends_on_cut;
+    double deepest = 0;
+    for (const Passage& passage : passages) {
+      const auto run = falling(cloud, passage, planes[plate], plate);
+      ends.push_back(
+          end_place(cloud, passage, frame, plate, follower(cloud, passage, plate), pitch_mm));
+      if (const int i = end_on_cut(cloud, passage, planes[plate], plate, near_mm); i >= 0) {
+        const Eigen::Vector3d p = frame.of(cloud.points[i]);
+        ends_on_cut.push_back({p.x(), p.y(), 0, kCutDeviation});
+      }
+      // One alone may lie on the other plate's cut, across the gap.
+      const auto below = [&](int i) {
+        return planes[plate].signed_distance(cloud.points[i]) <= -2 * near_mm;
+      };
+      if (std::count_if(run.begin(), run.end(), below) < 2) continue;
+      for (const int i : run) {
+        if (!below(i)) continue;
+        const Eigen::Vector3d p = frame.of(cloud.points[i]);
+        cut.push_back(
+            {p.x(), p.y(), planes[plate].signed_distance(cloud.points[i]), kCutDeviation});
+        deepest = std::min(deepest, cut.back().height);
+      }
+    }
+    if (cut.size() >= kLeastCut && -deepest > kLeastDepth) {
+      // Falling away from plate 0 is toward larger across. What does not slant open is cut square.
+      if (const auto fit = fit_border(cut, kFreeCut);
+          fit && std::atan((plate == 0 ? -1 : 1) * fit->lean) > kSlanting) {
+        borders.plates[plate] = fit;
+        borders.slants[plate] = std::atan((plate == 0 ? -1 : 1) * fit->lean);
+        continue;
+      }
+    }
+    const bool parted = 2 * ends_on_cut.size() > passages.size();
+    borders.together |= parted;
+    borders.plates[plate] = fit_border(parted ? ends_on_cut : ends, kSquareCut);
+  }
+  const auto& [first, second] = borders.plates;
+  if (borders.slants[0] || borders.slants[1] || !first || !second || !cloud.organised() ||
+      !run_through(cloud, passages))
+    return borders;
+  const auto narrow = narrow_borders(cloud, passages, frame, planes, *first, *second, near_mm);
+  if (!narrow) return borders;
+  borders.plates = {(*narrow)[0], (*narrow)[1]};
+  borders.together = true;
+  return borders;
+}
+
+std::optional<LapFoot> lap_foot(const ScanCloud& cloud, const std::vector<Passage>& passages,
+                                const PlateFrame& frame, const std::array<Plane, 2>& planes,
+                                int upper, double step_mm, double near_mm, double pitch_mm) {
+  std::vector<BorderPlace> cut, ends;
+  const Plane& lower = planes[1 - upper];
+  for (const Passage& passage : passages) {
+    for (const int i : passage.between) {
+      const double height = lower.signed_distance(cloud.points[i]);
+      if (height < kOffPlate * near_mm || height > step_mm - kOffPlate * near_mm ||
+          cloud.origins[i].segment_end)
+        continue;
+      const Eigen::Vector3d p = frame.of(cloud.points[i]);
+      cut.push_back({p.x(), p.y(), height, kCutDeviation});
+    }
+    // What follows on the upper plate's last point belongs to its cut or, in a thin plate's scan,
+    // to the lower plate.
+    ends.push_back(
+        end_place(cloud, passage, frame, upper, follower(cloud, passage, upper), pitch_mm));
+  }
+  if (cut.size() >= kLeastCut)
+    if (const auto fit = fit_border(cut, kSquareCut)) return LapFoot{*fit, true};
+  if (const auto fit = fit_border(ends, kSquareCut)) return LapFoot{*fit, false};
+  return std::nullopt;
+}
+
+}  // namespace arcstart::seam_finding

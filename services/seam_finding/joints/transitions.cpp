@@ -1,0 +1,87 @@
+#include "services/seam_finding/joints/transitions.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <map>
+
+namespace arcstart::seam_finding {
+namespace {
+
+// A stripe's segments come in the image's order; across the search they are put in theirs.
+Section in_order(const ScanCloud& cloud, const ScanStripe& stripe, const PlateFrame& frame) {
+  struct Piece {
+    int first = 0, last = 0;
+    double middle = 0;
+  };
+  std::vector<Piece> pieces;
+  for (int i = stripe.first; i < stripe.first + stripe.count; ++i) {
+    if (i == stripe.first || cloud.origins[i].segment != cloud.origins[i - 1].segment)
+      pieces.push_back({i, i});
+    pieces.back().last = i;
+  }
+  const auto across = [&](int i) { return frame.across.dot(cloud.points[i]); };
+  for (Piece& piece : pieces) piece.middle = (across(piece.first) + across(piece.last)) / 2;
+  std::stable_sort(pieces.begin(), pieces.end(),
+                   [](const Piece& a, const Piece& b) { return a.middle < b.middle; });
+  Section section;
+  for (const Piece& piece : pieces) {
+    const bool turned = across(piece.first) > across(piece.last);
+    for (int i = 0; i <= piece.last - piece.first; ++i)
+      section.push_back(turned ? piece.last - i : piece.first + i);
+  }
+  return section;
+}
+
+}  // namespace
+
+std::vector<Section> sections_across(const ScanCloud& cloud, const PlateFrame& frame,
+                                     double spacing_mm) {
+  std::vector<Section> sections;
+  if (cloud.organised()) {
+    for (const ScanStripe& stripe : cloud.stripes)
+      sections.push_back(in_order(cloud, stripe, frame));
+    return sections;
+  }
+  std::map<int, Section> slices;
+  for (int i = 0; i < cloud.size(); ++i)
+    slices[static_cast<int>(std::floor(frame.of(cloud.points[i]).x() / spacing_mm))].push_back(i);
+  for (auto& [slice, points] : slices) {
+    std::stable_sort(points.begin(), points.end(), [&](int a, int b) {
+      return frame.across.dot(cloud.points[a]) < frame.across.dot(cloud.points[b]);
+    });
+    sections.push_back(std::move(points));
+  }
+  return sections;
+}
+
+std::vector<Passage> passages_between(const ScanCloud& cloud, const std::vector<Section>& sections,
+                                      const std::vector<int>& face_of,
+                                      const std::vector<Face>& faces, int a, int b,
+                                      double near_mm) {
+  const auto on_plate = [&](int i) {
+    const int face = face_of[i];
+    return (face == a || face == b) &&
+           (cloud.origins[i].segment_end ||
+            std::abs(faces[face].plane.signed_distance(cloud.points[i])) <= near_mm);
+  };
+  std::vector<Passage> passages;
+  for (std::size_t k = 0; k < sections.size(); ++k) {
+    int last = -1;
+    std::vector<int> between;
+    for (const int i : sections[k]) {
+      if (!on_plate(i)) {
+        between.push_back(i);
+        continue;
+      }
+      const bool parted = !between.empty() ||
+                          (last >= 0 && cloud.origins[last].segment != cloud.origins[i].segment);
+      if (last >= 0 && (a == b ? parted : face_of[last] != face_of[i]))
+        passages.push_back({static_cast<int>(k), last, i, std::move(between), face_of[last] == a});
+      between.clear();
+      last = i;
+    }
+  }
+  return passages;
+}
+
+}  // namespace arcstart::seam_finding

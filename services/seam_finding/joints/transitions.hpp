@@ -1,0 +1,44 @@
+// Where a scan goes over from one plate to another in the same or a parallel plane.
+#pragma once
+
+#include <vector>
+
+#include "services/seam_finding/model/plate.hpp"
+#include "services/seam_finding/model/scan_cloud.hpp"
+
+namespace arcstart::seam_finding {
+
+// Axes in a plate: along the search, across it, and out of the metal; an origin on the plate.
+struct PlateFrame {
+  Eigen::Vector3d origin, along, across, normal;
+
+  // (along, across, out) of a point; mm
+  Eigen::Vector3d of(const Eigen::Vector3d& point) const {
+    const Eigen::Vector3d p = point - origin;
+    return {along.dot(p), across.dot(p), normal.dot(p)};
+  }
+};
+
+// The points of a stripe, or without stripes of a slice as wide as the points' spacing, in their
+// order across the search.
+using Section = std::vector<int>;
+std::vector<Section> sections_across(const ScanCloud& cloud, const PlateFrame& frame,
+                                     double spacing_mm);
+
+// In a section two neighbours on plates, with what lies between them.
+struct Passage {
+  int section = 0;
+  int last = 0, first = 0;   // indices of the points: the one with the smaller `across`, the other
+  std::vector<int> between;  // on neither plate, in order
+  bool rising = true;        // from the first face to the second, or back
+};
+
+// Between a point of face a and one of face b. Where both are one face: between two of its points
+// that lie in different segments or with something between. A point is on its face where it is no
+// farther from it than `near_mm`, a segment's end wherever the face holds it. faces: of each point,
+// the index of its face, -1 for none.
+std::vector<Passage> passages_between(const ScanCloud& cloud, const std::vector<Section>& sections,
+                                      const std::vector<int>& face_of,
+                                      const std::vector<Face>& faces, int a, int b, double near_mm);
+
+}  // namespace arcstart::seam_finding

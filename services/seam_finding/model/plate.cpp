@@ -1,0 +1,37 @@
+#include "services/seam_finding/model/plate.hpp"
+
+namespace arcstart::seam_finding {
+
+namespace {
+
+constexpr std::size_t kLeastPiece = 3;
+constexpr int kPieceGap = 3;  // outliers do not part a piece: so many places in the stripe
+
+}  // namespace
+
+Eigen::Vector3d away_from_seam(const JointPlate& plate, const JointPlate& other) {
+  const Eigen::Vector3d& n = plate.plane.normal;
+  const Eigen::Vector3d& toward = plate.away.isZero() ? other.plane.normal : plate.away;
+  return (toward - toward.dot(n) * n).normalized();
+}
+
+std::vector<int> without_scraps(const ScanCloud& cloud, const std::vector<int>& points) {
+  if (!cloud.organised()) return points;
+  std::vector<int> kept;
+  for (std::size_t first = 0, last = 0; first < points.size(); first = last) {
+    for (last = first + 1; last < points.size(); ++last) {
+      const PointOrigin &a = cloud.origins[points[last - 1]], &b = cloud.origins[points[last]];
+      if (a.stripe != b.stripe || a.segment != b.segment ||
+          points[last] - points[last - 1] > kPieceGap)
+        break;
+    }
+    const bool ends =
+        cloud.origins[points[first]].segment_end || cloud.origins[points[last - 1]].segment_end;
+    if (last - first + ends >= kLeastPiece)
+      kept.insert(kept.end(), points.begin() + static_cast<std::ptrdiff_t>(first),
+                  points.begin() + static_cast<std::ptrdiff_t>(last));
+  }
+  return kept;
+}
+
+}  // namespace arcstart::seam_finding

@@ -1,0 +1,198 @@
+#include "services/seam_finding/planes/robust_plane.hpp"
+
+#include <Eigen/LU>
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstdint>
+#include <numeric>
+#include <optional>
+
+#include "services/seam_finding/fit/biweight_sums.hpp"
+#include "services/seam_finding/planes/interreflection.hpp"
+
+namespace arcstart::seam_finding {
+namespace {
+
+constexpr std::size_t kLeastPoints = 20;
+constexpr double kTukey = 4.685;               // standard deviations
+constexpr double kMedianToDeviation = 1.4826;  // of normal noise
+constexpr std::size_t kBins = 1024;            // of the points' distances from the line
+constexpr std::size_t kTellSpread = 1024;      // points, evenly taken, of a plate
+constexpr double kRoughness = 1.5;  // a plate's spread over the cloud's noise that is no roughness
+constexpr double kLeastSpread = 3;  // of a plate's points within their plane, over their noise
+// A step that changes nothing any more: the noise leaves the height of a plane of thousands of
+// points uncertain by a hundred times as much. mm, and over kReach.
+constexpr double kSettled = 1e-5;
+constexpr double kReach = 60;  // mm
+
+// Points as heights above a first plane, at places in it: there all numbers are small or need not
+// be exact, so that floats do, side by side. The line lies in that plane.
+class Heights {
+ public:
+  Heights(const std::vector<Eigen::Vector3d>& points, const Line& line, const Plane& first)
+      : normal_(first.normal) {
+    along_ = (line.direction - line.direction.dot(normal_) * normal_).normalized();
+    across_ = normal_.cross(along_);
+    origin_ = line.point - first.signed_distance(line.point) * normal_;
+    const std::size_t padded = whole_registers(points.size());
+    a_.assign(padded, 0), b_.assign(padded, 0), distance_.assign(padded, 0);
+    h_.assign(padded, kFarOff);
+    count_ = points.size();
+    for (std::size_t i = 0; i < count_; ++i) {
+      const Eigen::Vector3d p = points[i] - origin_;
+      a_[i] = static_cast<float>(along_.dot(p));
+      b_[i] = static_cast<float>(across_.dot(p));
+      h_[i] = static_cast<float>(normal_.dot(p));
+    }
+    for (std::size_t i = 0; i < count_; ++i)
+      distance_[i] = std::sqrt(b_[i] * b_[i] + h_[i] * h_[i]);
+  }
+
+  // height = offset + along * a + across * b: a plane not far from the first.
+  struct Model {
+    double offset = 0, along = 0, across = 0;
+  };
+  Plane plane(const Model& model) const {
+    Plane plane;
+    plane.normal = (normal_ - model.along * along_ - model.across * across_).normalized();
+    plane.offset = -plane.normal.dot(origin_ + model.offset * normal_);
+    return plane;
+  }
+
+  std::size_t size() const { return count_; }
+  float distance(std::size_t i) const { return distance_[i]; }  // from the line
+  double residual(const Model& model, std::size_t i) const {
+    return h_[i] - model.offset - model.along * a_[i] - model.across * b_[i];
+  }
+
+  void lower_by(const ReflectionShift& shift) {
+    for (std::size_t i = 0; i < count_; ++i) h_[i] -= static_cast<float>(shift(distance_[i]));
+  }
+
+  Model narrowed(Model model, double noise, std::initializer_list<double> limits) const;
+  // The same, but that only those of some strips count. strip_of: of each point.
+  using Strips = std::bitset<kStrips>;
+  Heights chosen(const std::vector<std::uint8_t>& strip_of, const Strips& strips) const;
+
+ private:
+  static constexpr float kFarOff = 1e9f;  // mm: no limit reaches so far
+
+  Eigen::Vector3d normal_, along_, across_, origin_;
+  std::size_t count_ = 0;
+  std::vector<float> a_, b_, h_, distance_;  // filled up to whole registers
+};
+
+// The limit narrows from pass to pass, so that what agrees within the noise prevails over what was
+// drawn aside.
+Heights::Model Heights::narrowed(Model model, double noise,
+                                 std::initializer_list<double> limits) const {
+  double settled_at = 0;
+  for (const double limit : limits) {
+    if (limit == settled_at) continue;
+    const TukeySums s = tukey_sums({a_.data(), b_.data(), h_.data(), h_.size()}, model.offset,
+                                   model.along, model.across, limit * kTukey * noise);
+    if (s.w < static_cast<double>(kLeastPoints / 2)) return model;
+    // Of the smaller spread within the plane.
+    const double ma = s.a / s.w, mb = s.b / s.w;
+    const double vaa = s.aa / s.w - ma * ma, vab = s.ab / s.w - ma * mb, vbb = s.bb / s.w - mb * mb;
+    const double least = (vaa + vbb) / 2 - std::hypot((vaa - vbb) / 2, vab);
+    if (!(least > kLeastSpread * noise * kLeastSpread * noise)) return model;
+    Eigen::Matrix3d normal_equations;
+    normal_equations << s.w, s.a, s.b, s.a, s.aa, s.ab, s.b, s.ab, s.bb;
+    const Eigen::Vector3d step = normal_equations.inverse() * Eigen::Vector3d(s.r, s.ra, s.rb);
+    model.offset += step[0], model.along += step[1], model.across += step[2];
+    const double change = std::abs(step[0]) + kReach * (std::abs(step[1]) + std::abs(step[2]));
+    settled_at = change < kSettled ? limit : 0;
+  }
+  return model;
+}
+
+Heights Heights::chosen(const std::vector<std::uint8_t>& strip_of, const Strips& strips) const {
+  Heights some = *this;
+  for (std::size_t i = 0; i < count_; ++i)
+    if (!strips[strip_of[i]]) some.h_[i] = kFarOff;
+  return some;
+}
+
+// Standard deviation of the points from a plane, as their median distance tells it; mm. A plate may
+// be rougher than the cloud is where it is smoothest.
+double spread_about(const Heights& points, const Heights::Model& model) {
+  const std::size_t every = 1 + points.size() / kTellSpread;
+  std::vector<float> distances;
+  distances.reserve(points.size() / every + 1);
+  for (std::size_t i = 0; i < points.size(); i += every)
+    distances.push_back(static_cast<float>(std::abs(points.residual(model, i))));
+  const auto middle = distances.begin() + static_cast<std::ptrdiff_t>(distances.size() / 2);
+  std::nth_element(distances.begin(), middle, distances.end());
+  return kMedianToDeviation * *middle;
+}
+
+// The strip along the line that each point lies in: strips of equal numbers, counted from the line
+// outward. Points are put into bins by their distance; in order are those bins alone in which one
+// strip borders on the next.
+std::vector<std::uint8_t> strips_of(const Heights& points) {
+  float low = points.distance(0), high = low;
+  for (std::size_t i = 0; i < points.size(); ++i)
+    low = std::min(low, points.distance(i)), high = std::max(high, points.distance(i));
+  const float bins_each_mm = (kBins - 1) / std::max(high - low, 1e-6f);
+  std::vector<std::uint16_t> bins(points.size());
+  std::array<int, kBins + 1> begins{};  // of each bin's points in their order
+  for (std::size_t i = 0; i < points.size(); ++i) {
+    bins[i] = static_cast<std::uint16_t>((points.distance(i) - low) * bins_each_mm);
+    ++begins[bins[i] + 1u];
+  }
+  std::partial_sum(begins.begin(), begins.end(), begins.begin());
+  std::array<int, kBins + 1> next = begins;
+  std::vector<int> order(points.size());
+  for (std::size_t i = 0; i < points.size(); ++i) order[next[bins[i]]++] = static_cast<int>(i);
+  std::vector<std::uint8_t> strips(points.size());
+  for (std::size_t k = 0; k < kStrips; ++k) {
+    const std::size_t first = order.size() * k / kStrips, last = order.size() * (k + 1) / kStrips;
+    if (last < order.size()) {
+      const auto bin = bins[order[last]];
+      std::stable_sort(order.begin() + begins[bin], order.begin() + begins[bin + 1u],
+                       [&](int a, int b) { return points.distance(a) < points.distance(b); });
+    }
+    for (std::size_t i = first; i < last; ++i) strips[order[i]] = static_cast<std::uint8_t>(k);
+  }
+  return strips;
+}
+
+// The strips' means. Nothing where one has no points within the noise.
+std::optional<StripMeans> means_of(const Heights& points, const std::vector<std::uint8_t>& strip_of,
+                                   const Heights::Model& model, double noise) {
+  StripMeans strips{};
+  for (std::size_t i = 0; i < points.size(); ++i) {
+    const double height = points.residual(model, i);
+    if (std::abs(height) > kTukey * noise) continue;
+    Strip& strip = strips[strip_of[i]];
+    strip.distance += points.distance(i), strip.height += height, ++strip.points;
+  }
+  for (Strip& strip : strips) {
+    if (strip.points == 0) return std::nullopt;
+    strip.distance /= strip.points, strip.height /= strip.points;
+  }
+  return strips;
+}
+
+}  // namespace
+
+Plane robust_plane(const std::vector<Eigen::Vector3d>& points, const Line& line, const Plane& plane,
+                   double noise) {
+  if (points.size() < kLeastPoints) return plane;
+  Heights heights(points, line, plane);
+  double allowed = std::max(noise, spread_about(heights, {}) / kRoughness);
+  Heights::Model model =
+      heights.narrowed({}, allowed, {4.0, 4.0, 2.0, 2.0, 1.0, 1.0, 0.6, 0.6, 0.6, 0.6});
+  allowed = std::max(noise, spread_about(heights, model) / kRoughness);
+  const auto strip_of = strips_of(heights);
+  const auto strips = means_of(heights, strip_of, model, allowed);
+  if (!strips) return heights.plane(model);
+  const AgreedStrips agreed = agreed_strips(*strips, allowed);
+  if (agreed.shift.most != 0) heights.lower_by(agreed.shift);
+  model = heights.chosen(strip_of, agreed.strips).narrowed(model, allowed, {1.0, 1.0, 1.0, 1.0});
+  return heights.plane(model);
+}
+
+}  // namespace arcstart::seam_finding

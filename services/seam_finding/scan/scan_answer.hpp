@@ -1,0 +1,77 @@
+// From a scan's messages to its answer, seam_t.
+#pragma once
+
+#include <arcstart/seam_t.hpp>
+#include <memory>
+#include <string>
+
+#include "common/calibration.hpp"
+#include "services/seam_finding/background/background.hpp"
+#include "services/seam_finding/background/segmentation.hpp"
+#include "services/seam_finding/cloud/thinned_cloud.hpp"
+#include "services/seam_finding/model/scan_cloud.hpp"
+#include "services/seam_finding/scan/scan_collector.hpp"
+#include "services/seam_finding/seam_finding_settings.hpp"
+
+namespace arcstart::seam_finding {
+
+// What became of the images of a scan.
+struct ScanBalance {
+  int stripes = 0;        // profiles with points
+  int empty = 0;          // their stripe had no point
+  int without_pose = 0;   // no position or calibration for them
+  int images_lost = 0;    // at the camera
+  int profiles_lost = 0;  // between the camera and here
+
+  std::string losses() const;  // "2 images lost at the camera; ", empty for none
+};
+ScanBalance balance_of(const CollectedScan& scan);
+
+// Points and stripes in order of seq, a kMissing stripe for each of which is not known what it
+// would have shown.
+ScanCloud cloud_of(const CollectedScan& scan);
+
+// The calibration of all its points; empty where there are none. Sets error where it changed.
+std::string calibration_of(const CollectedScan& scan, std::string& error);
+
+// A background scan, ready for comparison.
+class StoredBackground {
+ public:
+  StoredBackground(const CollectedScan& scan, const SeamFindingSettings& settings);
+  std::int64_t scan_id() const { return scan_id_; }
+  const std::string& calibration_id() const { return calibration_id_; }
+  const Background& model() const { return *model_; }
+  std::size_t points() const { return cloud_->points.size(); }
+
+ private:
+  std::int64_t scan_id_;
+  std::string calibration_id_;
+  std::unique_ptr<ScanCloud> cloud_;  // the model refers to it
+  std::unique_ptr<Background> model_;
+};
+
+// Why a background scan is not complete, empty where it can serve. Single stripes may be missing,
+// for the surface is known from those beside them: no more than one in twenty, no two in a row.
+std::string background_error(const CollectedScan& scan);
+
+// A workpiece scan before the seam is sought: its cloud, thinned, and divided where there is a
+// background.
+struct PreparedScan {
+  ScanCloud cloud;
+  Division division;
+  ThinnedCloud thinned;
+};
+PreparedScan prepare(const CollectedScan& scan, const StoredBackground* background);
+
+// The answer to a workpiece scan; background, calibration of the scan: nullptr where there is none.
+// prepared: by that background.
+seam_t answer_workpiece(const CollectedScan& scan, const PreparedScan& prepared,
+                        const StoredBackground* background, const SeamFindingSettings& settings,
+                        const Calibration* calibration = nullptr);
+seam_t answer_workpiece(const CollectedScan& scan, const StoredBackground* background,
+                        const SeamFindingSettings& settings,
+                        const Calibration* calibration = nullptr);
+// The receipt for a background scan; error: why it cannot serve, empty where it is stored.
+seam_t answer_background(const CollectedScan& scan, const std::string& error);
+
+}  // namespace arcstart::seam_finding

@@ -1,0 +1,140 @@
+#include "services/seam_finding/scan/scan_collector.hpp"
+
+#include <algorithm>
+
+namespace arcstart::seam_finding {
+namespace {
+
+// What comes over the network must not fill the memory.
+constexpr std::size_t kMostOpen = 4;
+constexpr std::size_t kMostProfiles = 20'000;  // of a scan: 20 minutes at 14 Hz
+constexpr std::size_t kMostPoints = 2'000'000;
+constexpr std::size_t kMostAnswered = 1000;
+
+// A scan's end as the next scan's state still tells it.
+scan_t previous_of(const scan_t& state) {
+  scan_t previous{};
+  previous.utime = state.utime;
+  previous.run_id = state.run_id;
+  previous.state = scan_t::ENDED;
+  previous.scan_id = previous.begin_utime = state.previous_scan_id;
+  previous.kind = state.previous_kind;
+  previous.end_utime = state.previous_end_utime;
+  previous.first_seq = -1;  // not told
+  previous.last_seq = state.previous_last_seq;
+  previous.images = state.previous_images;
+  return previous;
+}
+
+}  // namespace
+
+bool ScanCollector::OpenScan::is_decided() const {
+  if (!refusal.empty()) return true;
+  return has_ended() && (state->images == 0 || newest_seq >= state->last_seq);
+}
+
+ScanCollector::OpenScan* ScanCollector::find(std::int64_t scan_id) {
+  const auto scan = std::find_if(open_.begin(), open_.end(),
+                                 [&](const OpenScan& open) { return open.scan_id == scan_id; });
+  return scan == open_.end() ? nullptr : &*scan;
+}
+
+ScanCollector::OpenScan* ScanCollector::find_or_open(std::int64_t scan_id, std::int64_t run_id) {
+  if (std::find(answered_.begin(), answered_.end(), scan_id) != answered_.end()) return nullptr;
+  if (OpenScan* scan = find(scan_id)) return scan;
+  if (open_.size() == kMostOpen) open_.pop_front();
+  open_.emplace_back();
+  open_.back().scan_id = scan_id;
+  open_.back().run_id = run_id;
+  return &open_.back();
+}
+
+// A restarted sensor_capture never resumes a scan. Which of its profiles had come when that was
+// heard hangs on the two channels' pace, so none of them counts.
+void ScanCollector::refuse_older_runs(std::int64_t run_id) {
+  for (OpenScan& scan : open_) {
+    if (scan.run_id >= run_id || scan.has_ended()) continue;
+    scan.refusal = "sensor_capture restarted within the scan: scan again";
+    scan.profiles.clear();
+  }
+}
+
+void ScanCollector::take_end_of_previous(const scan_t& state) {
+  if (state.previous_scan_id == 0) return;
+  if (OpenScan* scan = find(state.previous_scan_id); scan && !scan->has_ended())
+    scan->state = previous_of(state);
+}
+
+void ScanCollector::take(const scan_t& state) {
+  take_end_of_previous(state);
+  refuse_older_runs(state.run_id);
+  if (state.state == scan_t::IDLE || state.scan_id == 0) return;
+  OpenScan* scan = find_or_open(state.scan_id, state.run_id);
+  if (scan && !scan->has_ended()) scan->state = state;
+}
+
+void ScanCollector::take(const profile_t& profile) {
+  for (OpenScan& scan : open_)
+    if (scan.run_id == profile.run_id) scan.newest_seq = std::max(scan.newest_seq, profile.seq);
+  if (profile.scan_id == 0) return;
+  OpenScan* scan = find_or_open(profile.scan_id, profile.run_id);
+  if (!scan || scan->run_id != profile.run_id || !scan->refusal.empty()) return;
+  scan->newest_seq = std::max(scan->newest_seq, profile.seq);
+  if (scan->profiles.try_emplace(profile.seq, profile).second) scan->points += profile.x.size();
+  if (scan->profiles.size() <= kMostProfiles && scan->points <= kMostPoints) return;
+  scan->refusal = "the scan has more points than memory is kept for: scan less, or thin it out";
+  scan->profiles.clear();
+}
+
+std::optional<CollectedScan> ScanCollector::next() {
+  const auto decided = std::find_if(open_.begin(), open_.end(),
+                                    [](const OpenScan& scan) { return scan.is_decided(); });
+  if (decided == open_.end()) return {};
+  // One heard of earlier, of which no end was ever told, will not end any more.
+  OpenScan& first = open_.front();
+  if (!first.is_decided()) {
+    first.refusal = "the scan's end was never told: scan again";
+    first.profiles.clear();
+  }
+  CollectedScan scan = close(first);
+  open_.pop_front();
+  skip(scan.state.scan_id);
+  return scan;
+}
+
+CollectedScan ScanCollector::close(OpenScan& scan) {
+  CollectedScan collected;
+  if (scan.state) {
+    collected.state = *scan.state;
+  } else {
+    collected.state.run_id = scan.run_id;
+    collected.state.scan_id = collected.state.begin_utime = scan.scan_id;
+    collected.state.kind = scan_t::WORKPIECE;
+    collected.state.first_seq = collected.state.last_seq = -1;
+  }
+  collected.refusal = scan.refusal;
+  for (auto& [seq, profile] : scan.profiles) collected.profiles.push_back(std::move(profile));
+  if (scan.has_ended() && scan.refusal.empty()) {
+    collected.profiles_lost =
+        std::max(0, scan.state->images - static_cast<int>(collected.profiles.size()));
+    lost_ += collected.profiles_lost;
+  }
+  return collected;
+}
+
+bool ScanCollector::awaits_profiles() const {
+  return std::any_of(open_.begin(), open_.end(),
+                     [](const OpenScan& scan) { return scan.has_ended() && !scan.is_decided(); });
+}
+
+void ScanCollector::give_up(const std::string& reason) {
+  for (OpenScan& scan : open_)
+    if (!scan.is_decided()) scan.refusal = reason;
+}
+
+void ScanCollector::skip(std::int64_t scan_id) {
+  answered_.push_back(scan_id);
+  if (answered_.size() > kMostAnswered) answered_.pop_front();
+}
+
+}  // namespace arcstart::seam_finding

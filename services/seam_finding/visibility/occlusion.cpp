@@ -1,0 +1,84 @@
+#include "services/seam_finding/visibility/occlusion.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include "services/seam_finding/visibility/plate_stripes.hpp"
+
+namespace arcstart::seam_finding {
+namespace {
+
+constexpr double kNearSeam = 3, kBeside = 20;  // in a plate, where it would be; mm
+constexpr double kReach = 60;                  // what stands before a seam lies so near it; mm
+constexpr double kStandsBefore = 2;            // mm
+constexpr double kShadow = 1.2, kAside = 3;    // of a thing: so long for its height, and mm
+constexpr int kLeastSeen = 3;                  // points
+// Of so many stripes one that shows something past a plate shows a reflection.
+constexpr int kLoneReflection = 4;
+
+// Points of a stripe before both plates.
+int points_before(const ScanCloud& cloud, const std::array<JointPlate, 2>& plates, const Line& line,
+                  const ScanStripe& stripe) {
+  int before = 0;
+  for (int i = stripe.first; i < stripe.first + stripe.count; ++i)
+    before += plates[0].plane.signed_distance(cloud.points[i]) > kStandsBefore &&
+              plates[1].plane.signed_distance(cloud.points[i]) > kStandsBefore &&
+              line.distance(cloud.points[i]) < kReach;
+  return before;
+}
+
+// Points seen through where a plate is missing.
+int points_past(const ScanCloud& cloud, const std::array<JointPlate, 2>& plates, const Line& line,
+                const Stations& stations, const Station& station, double tolerance) {
+  const ScanStripe& stripe = cloud.stripes[station.stripe];
+  std::array<int, 2> past{};
+  for (int i = stripe.first; i < stripe.first + stripe.count; ++i) {
+    for (int j = 0; j < 2; ++j) {
+      if (station.nearest[j] <= stations.near[j]) continue;
+      const auto through = seen_through(cloud, plates[j].plane, i, 2 * tolerance);
+      if (!through) continue;
+      const double r = away_from_seam(plates[j], plates[1 - j]).dot(*through - line.point);
+      past[j] += r > kNearSeam && r < kBeside;
+    }
+  }
+  return std::max(past[0], past[1]);
+}
+
+}  // namespace
+
+bool hidden_between(const ScanCloud& cloud, const std::array<JointPlate, 2>& plates,
+                    const Line& line, const Stations& stations, int from, int to,
+                    double tolerance) {
+  int stripes = 0, hidden = 0, past = 0;
+  for (int k = from + 1; k < to; ++k) {
+    const Station& station = stations.list[k];
+    if (station.stripe < 0) return false;
+    if (!station.known || stations.both(station)) continue;
+    ++stripes;
+    past += points_past(cloud, plates, line, stations, station, tolerance) >= kLeastSeen;
+    hidden += points_before(cloud, plates, line, cloud.stripes[station.stripe]) >= kLeastSeen;
+  }
+  return hidden > 0 && (past == 0 || (past == 1 && stripes >= kLoneReflection));
+}
+
+bool stands_before(const ScanCloud& cloud, const std::array<JointPlate, 2>& plates,
+                   const Line& line, const Stations& stations, double along, double around) {
+  return std::any_of(stations.list.begin(), stations.list.end(), [&](const Station& station) {
+    return station.stripe >= 0 && std::abs(station.along - along) <= around &&
+           points_before(cloud, plates, line, cloud.stripes[station.stripe]) >= kLeastSeen;
+  });
+}
+
+bool may_hide(const ScanCloud& cloud, const JointPlate& plate, const JointPlate& other,
+              const Eigen::Vector3d& place) {
+  int hiding = 0;
+  for (const Eigen::Vector3d& point : cloud.points) {
+    const double height = plate.plane.signed_distance(point);
+    if (height <= kStandsBefore || other.plane.signed_distance(point) <= kStandsBefore) continue;
+    const Eigen::Vector3d beside = point - place - height * plate.plane.normal;
+    hiding += beside.norm() <= kShadow * height + kAside;
+  }
+  return hiding >= kLeastSeen;
+}
+
+}  // namespace arcstart::seam_finding

@@ -1,0 +1,122 @@
+#include "services/seam_finding/visibility/plate_stripes.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+namespace arcstart::seam_finding {
+namespace {
+
+constexpr double kGap = 4;           // between points on one piece of a plate, at most; mm
+constexpr int kLeastBehind = 2;      // points that chance does not put behind a plate
+constexpr double kLeastSight = 0.1;  // sine of the angle between a line of sight and a plate
+// What lies in a plate rises from it by no more, mm for each mm, and that many deviations for its
+// noise. What is longer does lie in it; mm.
+constexpr double kRise = 0.04, kSureRise = 2.5, kLong = 15;
+
+// Leaves out short stretches of neighbours that rise from the plane all the way.
+void drop_askew(const ScanCloud& cloud, const Plane& plane, double noise, std::vector<int>& run) {
+  auto kept = run.begin();
+  for (auto begin = run.begin(), end = begin; begin != run.end(); begin = end) {
+    for (++end; end != run.end() && *end == end[-1] + 1 &&
+                cloud.origins[*end].segment == cloud.origins[*begin].segment;)
+      ++end;
+    const Eigen::Vector3d &first = cloud.points[*begin], way = cloud.points[end[-1]] - first;
+    bool askew = false;
+    if (end - begin > 2 && way.norm() < kLong) {
+      const Eigen::Vector3d direction = way.normalized();
+      double n = 0, s = 0, h = 0, ss = 0, sh = 0;
+      for (auto i = begin; i != end; ++i) {
+        const double along = direction.dot(cloud.points[*i] - first);
+        const double height = plane.signed_distance(cloud.points[*i]);
+        n += 1, s += along, h += height, ss += along * along, sh += along * height;
+      }
+      const double spread = ss - s * s / n;
+      askew = std::abs(sh - s * h / n) > kRise * spread + kSureRise * noise * std::sqrt(spread);
+    }
+    kept = askew ? kept : std::move(begin, end, kept);
+  }
+  run.erase(kept, run.end());
+}
+
+// Half of the stripes that show the plate reach so far.
+double usual_reach(const ScanCloud& cloud, const PlateStripes& stripes) {
+  std::vector<double> reaches;
+  for (const auto& run : stripes.runs) {
+    double reach = 0;
+    for (const int i : run)
+      reach = std::max(reach, stripes.away.dot(cloud.points[i] - stripes.line.point));
+    if (reach > 0) reaches.push_back(reach);
+  }
+  if (reaches.empty()) return 0;
+  const auto middle = reaches.begin() + static_cast<std::ptrdiff_t>(reaches.size() / 2);
+  std::nth_element(reaches.begin(), middle, reaches.end());
+  return *middle;
+}
+
+}  // namespace
+
+std::optional<Eigen::Vector3d> seen_through(const ScanCloud& cloud, const Plane& plane, int point,
+                                            double tolerance) {
+  const double depth = -plane.signed_distance(cloud.points[point]);
+  if (depth <= tolerance) return std::nullopt;
+  const Eigen::Vector3d sight = (cloud.points[point] - cloud.seen_from(point)).normalized();
+  const double toward = -plane.normal.dot(sight);
+  if (toward < kLeastSight) return std::nullopt;
+  return cloud.points[point] - sight * (depth / toward);
+}
+
+PlateStripes plate_stripes(const ScanCloud& cloud, const JointPlate& plate, const JointPlate& other,
+                           const Line& line, double tolerance, double noise) {
+  PlateStripes stripes{plate, other, line, away_from_seam(plate, other),
+                       std::vector<std::vector<int>>(cloud.stripes.size())};
+  if (!cloud.organised()) return stripes;
+  const auto reach = [&](const Eigen::Vector3d& p) { return stripes.away.dot(p - line.point); };
+  for (auto point = plate.points.begin(); point != plate.points.end();) {
+    const int k = cloud.origins[*point].stripe,
+              end = cloud.stripes[k].first + cloud.stripes[k].count;
+    std::vector<int>& run = stripes.runs[k];
+    const auto next = std::lower_bound(point, plate.points.end(), end);
+    run.reserve(static_cast<std::size_t>(next - point));
+    std::copy_if(point, next, std::back_inserter(run), [&](int i) {
+      return reach(cloud.points[i]) > tolerance &&
+             std::abs(plate.plane.signed_distance(cloud.points[i])) <= tolerance;
+    });
+    drop_askew(cloud, plate.plane, noise, run);
+    point = next;
+  }
+
+  for (std::size_t k = 0; k < stripes.runs.size(); ++k) {
+    std::vector<int>& run = stripes.runs[k];
+    const auto parted = std::adjacent_find(run.begin(), run.end(), [&](int a, int b) {
+      return b > a + 1 && std::abs(reach(cloud.points[b]) - reach(cloud.points[a])) > kGap;
+    });
+    if (parted == run.end()) continue;
+    std::vector<double> reaches, behind;
+    for (const int i : run) reaches.push_back(reach(cloud.points[i]));
+    std::sort(reaches.begin(), reaches.end());
+    const ScanStripe& stripe = cloud.stripes[k];
+    for (int i = stripe.first; i < stripe.first + stripe.count; ++i)
+      if (const auto through = seen_through(cloud, plate.plane, i, tolerance))
+        behind.push_back(reach(*through));
+    for (std::size_t j = 1; j < reaches.size(); ++j) {
+      const double from = reaches[j - 1], to = reaches[j];
+      if (to - from <= kGap || std::count_if(behind.begin(), behind.end(), [&](double r) {
+                                 return r > from && r < to;
+                               }) < kLeastBehind)
+        continue;
+      std::erase_if(run, [&](int i) { return reach(cloud.points[i]) >= to; });
+      break;
+    }
+  }
+  stripes.reach = usual_reach(cloud, stripes);
+  return stripes;
+}
+
+std::array<PlateStripes, 2> plate_stripes(const ScanCloud& cloud,
+                                          const std::array<JointPlate, 2>& plates, const Line& line,
+                                          double tolerance, double noise) {
+  return {plate_stripes(cloud, plates[0], plates[1], line, tolerance, noise),
+          plate_stripes(cloud, plates[1], plates[0], line, tolerance, noise)};
+}
+
+}  // namespace arcstart::seam_finding

@@ -1,0 +1,50 @@
+// bench_extraction: accuracy, identity and time of the stripe extraction, beside what OpenCV alone
+// does.
+#include "tests/bench/extraction/extraction_bench.hpp"
+
+#include <fmt/format.h>
+
+#include <CLI/CLI.hpp>
+#include <algorithm>
+#include <fstream>
+#include <opencv2/core.hpp>
+
+int main(int argc, char** argv) {
+  using namespace arcstart;
+  CLI::App options("Stripe extraction on rendered scenes of 1600 x 1200: accuracy, identity, time");
+  std::string json_path;
+  int seeds = 8, rounds = 30;
+  std::vector<std::string> parts;
+  options.add_option("--json", json_path, "Where the figures go, flat JSON");
+  options.add_option("--seeds", seeds, "Of each scene, 1 to N, none left out")
+      ->capture_default_str();
+  options.add_option("--rounds", rounds, "Of the timing")->capture_default_str();
+  options
+      .add_option("--part", parts,
+                  "accuracy, disturbances, noise, real, identity or speed; all by default")
+      ->check(CLI::IsMember({"accuracy", "disturbances", "noise", "real", "identity", "speed"}));
+  std::string pictures;
+  options.add_option("--pictures", pictures, "Draw the scenes into this folder, measure nothing")
+      ->check(CLI::ExistingDirectory);
+  CLI11_PARSE(options, argc, argv);
+  cv::setNumThreads(1);
+  if (!pictures.empty()) {
+    arcstart::draw_scenes(pictures);
+    return 0;
+  }
+  const auto wanted = [&](const std::string& part) {
+    return parts.empty() || std::find(parts.begin(), parts.end(), part) != parts.end();
+  };
+  nlohmann::json json;
+  if (wanted("speed")) bench_speed(rounds, json);
+  if (wanted("identity")) bench_identity(seeds, json);
+  if (wanted("noise")) bench_white_noise(seeds, json);
+  if (wanted("real")) bench_real_images(json);
+  if (wanted("disturbances")) bench_disturbances(seeds, json);
+  if (wanted("accuracy")) bench_accuracy(seeds, json);
+  if (!json_path.empty() && !(std::ofstream(json_path) << json.dump(2) << '\n')) {
+    fmt::print(stderr, "bench_extraction: {} cannot be written\n", json_path);
+    return 1;
+  }
+  return 0;
+}

@@ -1,0 +1,41 @@
+// bench_seam: how right, how sure and how fast the seam is found. Every seed counts.
+#include <fmt/format.h>
+#include <spdlog/spdlog.h>
+
+#include <CLI/CLI.hpp>
+#include <fstream>
+
+#include "tests/bench/seam/seam_scenes.hpp"
+
+int main(int argc, char** argv) {
+  CLI::App options("Errors, deviations and time of the seam over seeds of simulated scans");
+  std::string json_path;
+  int rendered = 25, profiles = 100, backgrounds = 5;
+  int first = 1;
+  std::string row;
+  bool no_speed = false;
+  options.add_option("--json", json_path, "Where the figures go, flat JSON");
+  options.add_option("--seeds", rendered, "Rendered scans a row, twice as many with a tool")
+      ->capture_default_str();
+  options.add_option("--profile-seeds", profiles, "Scans a row and noise that need no images")
+      ->capture_default_str();
+  options.add_option("--background-seeds", backgrounds, "Pairs of scans a row of the background")
+      ->capture_default_str();
+  options.add_option("--first-seed", first, "Of each row; those from 1 on are reported")
+      ->capture_default_str();
+  options.add_option("--row", row, "Only the rows of this name, as in the table before the dot");
+  options.add_flag("--no-speed", no_speed, "Leave the times out");
+  CLI11_PARSE(options, argc, argv);
+  spdlog::set_level(spdlog::level::err);  // the tables alone
+  nlohmann::json json;
+  const arcstart::SeedsOfRow wanted{row, first};
+  if (rendered > 0) arcstart::bench_rendered(rendered, wanted, json);
+  if (profiles > 0) arcstart::bench_profiles(profiles, wanted, json);
+  if (backgrounds > 0) arcstart::bench_background(backgrounds, json);
+  if (!no_speed) arcstart::bench_speed(json);
+  if (!json_path.empty() && !(std::ofstream(json_path) << json.dump(2) << '\n')) {
+    fmt::print(stderr, "bench_seam: {} cannot be written\n", json_path);
+    return 1;
+  }
+  return 0;
+}

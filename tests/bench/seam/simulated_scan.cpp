@@ -1,0 +1,198 @@
+#include "tests/bench/seam/simulated_scan.hpp"
+
+#include <random>
+
+#include "common/calibration_message.hpp"
+#include "common/sensor_model.hpp"
+#include "common/time.hpp"
+#include "services/cell_simulator/base/random_stream.hpp"
+
+namespace arcstart {
+namespace {
+
+constexpr std::int64_t kRunId = 1'699'999'999'000'000;
+
+void copy(const Eigen::Vector3d& from, double to[3]) { std::copy(from.begin(), from.end(), to); }
+
+}  // namespace
+
+SimulatedScan::SimulatedScan(Bus& bus, const SimulatedScanSettings& settings, std::uint64_t seed)
+    : bus_(bus),
+      settings_(settings),
+      losses_(seed * 31 + 7),
+      seed_(seed),
+      renderer_(settings.sensor) {
+  publish_calibration();
+}
+
+void SimulatedScan::publish_calibration() {
+  if (settings_.calibration)
+    return bus_.publish("LASER0_CALIBRATION", to_message(*settings_.calibration));
+  const cell_simulator::TrueSensor& sensor = renderer_.sensor();
+  SensorModel model{
+      sensor.width, sensor.height, sensor.fx,         sensor.fy,
+      sensor.cx,    sensor.cy,     sensor.distortion, {sensor.laser_normal, sensor.laser_offset}};
+  calibration_t message{};
+  message.utime = kRunId;
+  message.id = "simulated";
+  message.sensor = "LASER0";
+  message.robot = "ROBOT0";
+  message.tool = "TCP1";
+  message.width = sensor.width;
+  message.height = sensor.height;
+  const double camera[] = {sensor.fx, sensor.fy, sensor.cx, sensor.cy};
+  std::copy(std::begin(camera), std::end(camera), message.camera_matrix);
+  std::copy(sensor.distortion.begin(), sensor.distortion.end(), message.distortion);
+  copy(sensor.laser_normal, message.laser_plane);
+  message.laser_plane[3] = sensor.laser_offset;
+  const Eigen::Matrix<double, 4, 3> M = pixel_to_camera(model);
+  for (int row = 0; row < 4; ++row)
+    for (int column = 0; column < 3; ++column)
+      message.pixel_to_camera[row][column] = M(row, column);
+  transform_to_arrays(sensor.T_tool_camera, message.camera_position, message.camera_quaternion);
+  message.time_offset = -settings_.image_delay_s;
+  message.camera_residual = message.laser_plane_residual = message.hand_eye_residual = -1;
+  message.origin = "simulator's truth";
+  bus_.publish("LASER0_CALIBRATION", message);
+}
+
+void SimulatedScan::draw_robot_error(cell_simulator::SceneKind kind) {
+  cell_simulator::RandomStream random(seed_,
+                                      kind == cell_simulator::SceneKind::workpiece ? 82 : 81);
+  Eigen::Vector3d shift, turn;
+  for (double& value : shift) value = settings_.robot_error_mm * random.normal();
+  for (double& value : turn) value = settings_.robot_error_deg * EIGEN_PI / 180 * random.normal();
+  robot_error_ = RigidTransform::Identity();
+  robot_error_.translation() = shift;
+  if (turn.norm() > 0)
+    robot_error_.linear() = Eigen::AngleAxisd(turn.norm(), turn.normalized()).toRotationMatrix();
+}
+
+void SimulatedScan::publish_scan(std::int8_t state, cell_simulator::SceneKind kind,
+                                 std::int64_t now, int images) {
+  scan_t message{};
+  message.utime = now;
+  message.run_id = kRunId;
+  message.state = state;
+  message.scan_id = message.begin_utime = message.command_id = scan_id_;
+  message.kind =
+      kind == cell_simulator::SceneKind::background ? scan_t::BACKGROUND : scan_t::WORKPIECE;
+  message.end_utime = state == scan_t::ENDED ? now : 0;
+  message.first_seq = images > 0 ? first_seq_ : -1;
+  message.last_seq = images > 0 ? last_seq_ : -1;
+  message.images = images;
+  message.lost = frames_lost_;
+  if (state == scan_t::ENDED) message.end_reason = "tool stood still";
+  bus_.publish("LASER0_SCAN", message);
+}
+
+void SimulatedScan::publish_pose(const RigidTransform& T_base_tool, std::int64_t utime) {
+  std::mt19937_64 random(seed_ * 1'000'003 + static_cast<std::uint64_t>(pose_seq_));
+  std::normal_distribution<double> noise(0, settings_.position_noise_mm);
+  robot_pose_t message{};
+  message.utime = message.arrival_utime = utime;
+  message.run_id = kRunId;
+  message.seq = pose_seq_++;
+  RigidTransform seen = T_base_tool;
+  seen.linear() = robot_error_.linear() * seen.linear();
+  seen.translation() += robot_error_.translation();
+  seen.translation() += Eigen::Vector3d(noise(random), noise(random), noise(random));
+  transform_to_arrays(seen, message.position, message.quaternion);
+  message.device_clock = utime;
+  message.device_tick_us = 1;
+  if (!lost(settings_.positions_lost_share)) bus_.publish("ROBOT0_POSE", message);
+}
+
+void SimulatedScan::publish_image(const cell_simulator::Scene& scene,
+                                  const RigidTransform& T_base_tool, std::int64_t middle,
+                                  int index) {
+  const cell_simulator::TrueSensor& sensor = renderer_.sensor();
+  if (lost(settings_.frames_lost_share)) {
+    ++image_seq_;
+    ++gap_;
+    return;
+  }
+  // A frame is missed when the next one comes.
+  frames_lost_ += gap_;
+  gap_ = 0;
+  last_seq_ = image_seq_;
+  image_t message{};
+  message.utime = middle + seconds_to_us(settings_.image_delay_s);
+  message.run_id = kRunId;
+  message.seq = image_seq_++;
+  message.scan_id = scan_id_;
+  message.scan_index = index;
+  message.width = message.sensor_width = static_cast<std::int16_t>(sensor.width);
+  message.height = message.sensor_height = static_cast<std::int16_t>(sensor.height);
+  message.exposure_us = cell_simulator::Exposure{}.exposure_us;
+  message.laser_on = true;
+  message.arrival_utime = message.utime;
+  message.size = sensor.width * sensor.height;
+  message.data.resize(static_cast<std::size_t>(message.size));
+  renderer_.render(scene, T_base_tool, cell_simulator::Exposure{},
+                   seed_ * 100'003 + static_cast<std::uint64_t>(message.seq), message.data.data(),
+                   renderer_.whole_image());
+  bus_.publish("LASER0_IMAGE", message);
+}
+
+void SimulatedScan::run(cell_simulator::SceneKind kind) {
+  const cell_simulator::Scene scene = cell_simulator::make_scene(settings_.scene, kind, seed_);
+  const RigidTransform begin = cell_simulator::taught_tool_pose(settings_.sensor, settings_.scene,
+                                                                settings_.scene.search_begin_mm);
+  const RigidTransform end = cell_simulator::taught_tool_pose(settings_.sensor, settings_.scene,
+                                                              settings_.scene.search_end_mm);
+  const double duration =
+      (end.translation() - begin.translation()).norm() / settings_.speed_mm_s;  // s
+  // Half a second of rest on either side of the search; the trigger's phase by seed and scan.
+  std::mt19937_64 random(seed_ * 2 + (kind == cell_simulator::SceneKind::workpiece));
+  const double phase =
+      std::uniform_real_distribution<double>(0, 1 / settings_.frames_per_second)(random);
+  scan_id_ = clock_ += 10'000'000;
+  const auto pose_at = [&](double seconds) {
+    return interpolate(begin, end, std::clamp((seconds - 0.5) / duration, 0.0, 1.0));
+  };
+  publish_scan(scan_t::SCANNING, kind, clock_, 0);
+  first_seq_ = image_seq_;
+  frames_lost_ = gap_ = 0;
+  draw_robot_error(kind);
+  int images = 0, positions = -50;  // a second of positions before the scan
+  const double last = duration + 1;
+  for (;;) {
+    const double image_time = phase + images / settings_.frames_per_second;
+    const double position_time = positions / settings_.positions_per_second;
+    if (image_time > last && position_time > last + 0.1) break;
+    if (position_time <= image_time || image_time > last) {
+      publish_pose(pose_at(position_time), scan_id_ + seconds_to_us(position_time));
+      ++positions;
+    } else {
+      publish_image(scene, pose_at(image_time), scan_id_ + seconds_to_us(image_time), images);
+      ++images;
+    }
+    while (bus_.handle(std::chrono::milliseconds(0))) {
+    }
+  }
+  clock_ = scan_id_ + seconds_to_us(last + 0.1);
+  publish_scan(scan_t::ENDED, kind, clock_, images);
+  while (bus_.handle(std::chrono::milliseconds(0))) {
+  }
+}
+
+truth_t SimulatedScan::truth() const {
+  const cell_simulator::SeamTruth seam =
+      cell_simulator::make_scene(settings_.scene, cell_simulator::SceneKind::workpiece, seed_)
+          .seam()
+          .value();
+  truth_t message{};
+  message.utime = kRunId;
+  message.seed = static_cast<std::int64_t>(seed_);
+  message.joint_type = seam.joint_type;
+  copy(seam.start, message.start);
+  copy(seam.end, message.end);
+  copy(seam.direction, message.direction);
+  copy(seam.normals[0], message.normals[0]);
+  copy(seam.normals[1], message.normals[1]);
+  message.angle = seam.angle;
+  return message;
+}
+
+}  // namespace arcstart

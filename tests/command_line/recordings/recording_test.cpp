@@ -1,0 +1,299 @@
+#include "services/command_line/recordings/recording.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <catch2/catch.hpp>
+
+#include "tests/command_line/support/synthetic_recording.hpp"
+
+using namespace arcstart;
+using namespace arcstart::command_line;
+using namespace arcstart::test;
+using Catch::Matchers::Contains;
+
+namespace {
+
+bool any(const RecordedScan&) { return true; }
+
+// What the recording would feed, as channel and bytes.
+std::vector<std::pair<std::string, std::vector<std::uint8_t>>> fed(const Recording& recording) {
+  std::vector<std::pair<std::string, std::vector<std::uint8_t>>> messages;
+  for (const auto& message : recording.sources(any))
+    messages.emplace_back(recording.channel(message), recording.read(message));
+  return messages;
+}
+
+std::size_t count(const Recording& recording, const std::string& channel) {
+  const auto messages = fed(recording);
+  return static_cast<std::size_t>(
+      std::count_if(messages.begin(), messages.end(),
+                    [&](const auto& message) { return message.first == channel; }));
+}
+
+std::string refusal(const std::vector<std::string>& paths, const std::string& sensor = "") {
+  try {
+    Recording(paths, sensor, "").require_channels();
+  } catch (const RecordingError& error) {
+    CHECK(std::string(error.what()).find('\n') == std::string::npos);
+    return error.what();
+  }
+  return "";
+}
+
+Events without(Events events, const std::string& channel) {
+  std::erase_if(events, [&](const auto& event) { return event.channel == channel; });
+  return events;
+}
+
+}  // namespace
+
+TEST_CASE("a recording's scans, sensor and robot are found") {
+  const Folder folder;
+  Recorded recorded;
+  recorded.profiles = true;
+  recorded.sensor = "LASER7";
+  recorded.robot = "ARM";
+  const Recording recording({folder.save("a.lcm", record(recorded))}, "", "");
+  CHECK(recording.sensor() == "LASER7");
+  CHECK(recording.robot() == "ARM");
+  REQUIRE(recording.scans().size() == 2);
+  const RecordedScan& scan = recording.scans().at(kWorkpieceScan);
+  CHECK(scan.is_workpiece());
+  CHECK(scan.ended);
+  CHECK(scan.stage() == Stage::kProfiles);
+  CHECK(scan.messages[2] == 46);
+  CHECK(scan.newest[2] == scan.last_seq);
+  CHECK(recording.scans().at(kBackgroundScan).kind == scan_t::BACKGROUND);
+  CHECK(recording.warnings().empty());
+  CHECK(recording.configuration("extraction")->starts_with("extraction:\n"));
+  CHECK_FALSE(recording.configuration("robot_pose"));
+  CHECK_NOTHROW(recording.require_channels());
+}
+
+TEST_CASE("the earliest stage that was recorded is fed, and nothing derived from it") {
+  const Folder folder;
+  Recorded recorded;
+  recorded.profiles = recorded.stripes = true;
+  SECTION("images, with all that was made of them beside") {
+    recorded.images = true;
+    Events events = record(recorded);
+    const std::size_t whole = events.size();
+    for (std::size_t i = 0; i < whole; ++i) {
+      RecordedEvent event = events[i];
+      if (event.channel != "LASER0_IMAGE") continue;
+      event.channel = "LASER0_PREVIEW";
+      events.push_back(event);
+    }
+    const Recording recording({folder.save("a.lcm", events)}, "", "");
+    CHECK(recording.scans().at(kWorkpieceScan).stage() == Stage::kImages);
+    for (const auto& [channel, bytes] : fed(recording))
+      CHECK((channel == "LASER0_IMAGE" || channel == "ROBOT0_POSE" || channel == "LASER0_SCAN" ||
+             channel == "LASER0_CALIBRATION"));
+    CHECK(count(recording, "LASER0_IMAGE") == 92);
+    CHECK(count(recording, "ROBOT0_POSE") == 650);
+  }
+  SECTION("previews alone are no images") {
+    Events events = record(recorded);
+    events[100].channel = "LASER0_PREVIEW";
+    const Recording recording({folder.save("a.lcm", events)}, "", "");
+    CHECK(recording.scans().at(kWorkpieceScan).stage() == Stage::kStripes);
+    CHECK(count(recording, "LASER0_STRIPE") == 92);
+    CHECK(count(recording, "LASER0_PROFILE") == 0);
+  }
+  SECTION("each scan from its own") {
+    Events events = record(recorded);
+    std::erase_if(events, [](const auto& event) {
+      stripe_t stripe;
+      return event.channel == "LASER0_STRIPE" && decode(event.bytes, stripe).empty() &&
+             stripe.scan_id == kBackgroundScan;
+    });
+    const Recording recording({folder.save("a.lcm", events)}, "", "");
+    CHECK(count(recording, "LASER0_STRIPE") == 46);
+    CHECK(count(recording, "LASER0_PROFILE") == 46);
+  }
+}
+
+TEST_CASE("an unwanted scan is left out with the states that tell of it") {
+  const Folder folder;
+  Recorded recorded;
+  recorded.profiles = true;
+  const Recording recording({folder.save("a.lcm", record(recorded))}, "", "");
+  const auto messages =
+      recording.sources([](const RecordedScan& scan) { return scan.is_workpiece(); });
+  for (const auto& message : messages) {
+    if (channel_kind(recording.channel(message)) != ChannelKind::kScan) continue;
+    scan_t state;
+    REQUIRE(decode(recording.read(message), state).empty());
+    CHECK(state.scan_id != kBackgroundScan);
+  }
+}
+
+TEST_CASE("the order of replay does not hang on when the logger got what") {
+  const Folder folder;
+  Recorded recorded;
+  recorded.stripes = true;
+  Events events = record(recorded);
+  const auto expected = fed(Recording({folder.save("a.lcm", events)}, "", ""));
+  for (auto& event : events) {
+    if (event.channel == "LASER0_STRIPE") event.timestamp += 300'000;
+    if (event.channel == "ROBOT0_POSE") event.timestamp -= 300'000;
+    if (event.channel == "LASER0_SCAN") event.timestamp += 150'000;
+  }
+  sort(events);
+  CHECK((fed(Recording({folder.save("b.lcm", events)}, "", "")) == expected));
+}
+
+TEST_CASE(
+    "files that split a recording, by time or by channel, and loggers that ran at once give the "
+    "same") {
+  const Folder folder;
+  Recorded recorded;
+  recorded.stripes = true;
+  const Events events = record(recorded);
+  const auto expected = fed(Recording({folder.save("a.lcm", events)}, "", ""));
+
+  const auto middle = events.begin() + static_cast<std::ptrdiff_t>(events.size() / 2);
+  const auto first = folder.save("a.00", {events.begin(), middle});
+  const auto second = folder.save("a.01", {middle, events.end()});
+  CHECK((fed(Recording({first, second}, "", "")) == expected));
+  CHECK((fed(Recording({second, first}, "", "")) == expected));
+
+  const auto poses = [](const auto& event) { return event.channel == "ROBOT0_POSE"; };
+  Events robot, others;
+  std::copy_if(events.begin(), events.end(), std::back_inserter(robot), poses);
+  std::remove_copy_if(events.begin(), events.end(), std::back_inserter(others), poses);
+  const Recording apart({folder.save("robot.lcm", robot), folder.save("others.lcm", others)}, "",
+                        "");
+  CHECK((fed(apart) == expected));
+
+  const Recording twice({folder / "robot.lcm", folder / "a.lcm"}, "", "");
+  CHECK(count(twice, "ROBOT0_POSE") == 650);
+  CHECK((fed(twice) == expected));
+}
+
+TEST_CASE("what cannot be replayed is refused in one line that says what is lacking") {
+  const Folder folder;
+  Recorded recorded;
+  recorded.stripes = true;
+  const Events events = record(recorded);
+  const auto lacking = [&](const std::string& channel) {
+    return refusal({folder.save("a.lcm", without(events, channel))});
+  };
+  CHECK_THAT(lacking("ROBOT0_POSE"),
+             Contains("a.lcm: lacks channel ROBOT0_POSE (the robot's positions"));
+  CHECK_THAT(lacking("LASER0_CALIBRATION"),
+             Contains("lacks channel LASER0_CALIBRATION (the calibration"));
+  CHECK_THAT(lacking("LASER0_SCAN"), Contains("lacks channel LASER0_SCAN (when scans begin"));
+  CHECK_THAT(
+      refusal({folder.save("b.lcm", without(without(events, "LASER0_STRIPE"), "LASER0_SCAN"))}),
+      Contains("holds no scan"));
+  CHECK(lacking("LASER0_EXTRACTION_STATUS").empty());
+
+  Recorded idle;
+  idle.background = idle.workpiece = false;
+  idle.profiles = true;
+  CHECK_THAT(refusal({folder.save("idle.lcm", record(idle))}),
+             Contains("holds no scan: LASER0_SCAN never tells"));
+
+  Events undecodable = events;
+  for (auto& event : undecodable)
+    if (event.channel == "LASER0_CALIBRATION") event.bytes.resize(event.bytes.size() - 1);
+  CHECK_THAT(refusal({folder.save("c.lcm", undecodable)}),
+             Contains("LASER0_CALIBRATION") && Contains("none of its messages can be decoded"));
+
+  // Profiles need neither positions nor a calibration.
+  Recorded late;
+  late.profiles = true;
+  CHECK(refusal({folder.save("d.lcm",
+                             without(without(record(late), "ROBOT0_POSE"), "LASER0_CALIBRATION"))})
+            .empty());
+}
+
+TEST_CASE("of several sensors one must be chosen") {
+  const Folder folder;
+  Recorded recorded;
+  recorded.profiles = true;
+  const auto first = folder.save("a.lcm", record(recorded));
+  recorded.sensor = "LASER1";
+  const auto second = folder.save("b.lcm", record(recorded));
+  CHECK_THAT(refusal({first, second}),
+             Contains("holds several sensors, LASER0, LASER1: choose one with --sensor"));
+  CHECK(refusal({first, second}, "LASER1").empty());
+  CHECK_THAT(refusal({first, second}, "LASER2"),
+             Contains("holds nothing of sensor LASER2, but of LASER0, LASER1"));
+  const Recording recording({first, second}, "LASER1", "");
+  CHECK(count(recording, "LASER0_PROFILE") == 0);
+  CHECK(count(recording, "LASER1_PROFILE") == 92);
+}
+
+TEST_CASE("messages of another type or version are counted and left out") {
+  const Folder folder;
+  Recorded recorded;
+  recorded.profiles = true;
+  Events events = record(recorded);
+  int spoilt = 0;
+  for (auto& event : events) {
+    if (event.channel == "LASER0_PROFILE" && spoilt < 3) event.bytes[spoilt++] ^= 1;
+    if (event.channel == "ROBOT0_POSE" && spoilt == 3) event.bytes.resize(20), ++spoilt;
+  }
+  const Recording recording({folder.save("a.lcm", events)}, "", "");
+  CHECK(recording.undecodable() == 4);
+  CHECK(count(recording, "LASER0_PROFILE") == 89);
+  REQUIRE(recording.warnings().size() == 2);
+  CHECK_THAT(recording.warnings()[0], Contains("LASER0_PROFILE: 3 messages cannot be decoded"));
+}
+
+TEST_CASE("why a scan is not answered is told from what was recorded") {
+  const Folder folder;
+  Recorded recorded;
+  recorded.stripes = true;
+  recorded.background = false;
+  Events events = record(recorded);
+  const auto why = [&](const Events& some) {
+    const Recording recording({folder.save("a.lcm", some)}, "", "");
+    return recording.why_unanswered(recording.scans().at(kWorkpieceScan));
+  };
+  Events cut = events;
+  std::erase_if(cut,
+                [](const auto& event) { return event.timestamp > kWorkpieceScan + 2'000'000; });
+  CHECK_THAT(why(cut), Contains("the recording ends within it, 27 stripes after its start"));
+  CHECK(Recording({folder / "a.lcm"}, "", "").scans().at(kWorkpieceScan).ended == false);
+
+  Events no_last = events;
+  std::erase_if(no_last, [](const auto& event) {
+    return event.channel == "LASER0_STRIPE" && event.timestamp > kWorkpieceScan + 3'000'000;
+  });
+  CHECK_THAT(why(no_last), Contains("its last stripes are missing"));
+
+  Events no_poses = events;
+  std::erase_if(no_poses, [](const auto& event) {
+    return event.channel == "ROBOT0_POSE" && event.timestamp > kWorkpieceScan + 3'000'000;
+  });
+  CHECK_THAT(why(no_poses), Contains("no position of the robot after its last image"));
+}
+
+TEST_CASE("a scan that ended before the recording began is not in it") {
+  const Folder folder;
+  Recorded recorded;
+  recorded.profiles = true;
+  Events events = record(recorded);
+  std::erase_if(events,
+                [](const auto& event) { return event.timestamp < kBackgroundScan + 4'500'000; });
+  const Recording recording({folder.save("a.lcm", events)}, "", "");
+  REQUIRE(recording.scans().size() == 1);
+  CHECK(recording.scans().begin()->first == kWorkpieceScan);
+}
+
+TEST_CASE("images that the logger lost are told where later stages were recorded whole") {
+  const Folder folder;
+  Recorded recorded;
+  recorded.stripes = recorded.profiles = true;
+  Events events = record(recorded);
+  int lost = 0;
+  std::erase_if(events,
+                [&](const auto& event) { return event.channel == "LASER0_STRIPE" && ++lost > 90; });
+  const Recording recording({folder.save("a.lcm", events)}, "", "");
+  REQUIRE(recording.warnings().size() == 1);
+  CHECK_THAT(recording.warnings()[0], Contains("44 of its stripes were recorded, but 46 profiles"));
+}

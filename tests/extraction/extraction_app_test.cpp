@@ -1,0 +1,235 @@
+// The service on an in-memory bus: one stripe for each image, whatever the image.
+#include "services/extraction/extraction_app.hpp"
+
+#include <catch2/catch.hpp>
+#include <cmath>
+#include <opencv2/imgcodecs.hpp>
+#include <random>
+
+#include "tests/extraction/support/stripe_image.hpp"
+
+using namespace arcstart;
+using namespace arcstart::extraction;
+
+namespace {
+
+cv::Mat picture(double at = 60, double width = 2) {
+  cv::Mat light = darkness(320, 160);
+  add_stripe(light, -10, at, 330, at + 17, 150, width);
+  return expose(light, 2);
+}
+
+class Cell {
+ public:
+  explicit Cell(const ExtractionSettings& settings = {})
+      : bus_(Bus::in_memory()), app_(*bus_, settings, Instance{}) {
+    bus_->subscribe<stripe_t>("LASER0_STRIPE", Queue::measurements(),
+                              [this](const stripe_t& stripe) { stripes_.push_back(stripe); });
+  }
+
+  static image_t image(const cv::Mat& grey, std::int64_t seq, std::int64_t scan_id = 1000) {
+    image_t message{};
+    message.utime = 1'000'000 + seq * 71'428;
+    message.run_id = 77;
+    message.seq = seq;
+    message.scan_id = scan_id;
+    message.scan_index = scan_id == 0 ? -1 : static_cast<std::int32_t>(seq);
+    message.width = static_cast<std::int16_t>(grey.cols);
+    message.height = static_cast<std::int16_t>(grey.rows);
+    message.sensor_width = 1600;
+    message.sensor_height = 1200;
+    message.exposure_us = 1000;
+    message.laser_on = 1;
+    message.encoding = image_t::MONO8;
+    message.data.assign(grey.datastart, grey.dataend);
+    message.size = static_cast<std::int32_t>(message.data.size());
+    return message;
+  }
+
+  const stripe_t& answer(const image_t& image) {
+    const std::size_t before = stripes_.size();
+    bus_->publish("LASER0_IMAGE", image);
+    while (bus_->handle(std::chrono::milliseconds(0))) {
+    }
+    REQUIRE(stripes_.size() == before + 1);
+    const stripe_t& stripe = stripes_.back();
+    CHECK(stripe.utime == image.utime);
+    CHECK(stripe.run_id == image.run_id);
+    CHECK(stripe.seq == image.seq);
+    CHECK(stripe.scan_id == image.scan_id);
+    CHECK(stripe.scan_index == image.scan_index);
+    CHECK(meaning_error(stripe).empty());
+    CHECK((stripe.count == 0) == !stripe.empty.empty());
+    return stripe;
+  }
+  Health health() const { return app_.health(); }
+
+ private:
+  std::unique_ptr<Bus> bus_;
+  ExtractionApp app_;
+  std::vector<stripe_t> stripes_;
+};
+
+std::vector<std::uint8_t> encode(const stripe_t& stripe) {
+  std::vector<std::uint8_t> bytes(static_cast<std::size_t>(stripe.getEncodedSize()));
+  stripe.encode(bytes.data(), 0, static_cast<int>(bytes.size()));
+  return bytes;
+}
+
+}  // namespace
+
+TEST_CASE("an image's stripe lies where it is on the full sensor") {
+  Cell cell;
+  image_t image = Cell::image(picture(), 0);
+  image.offset_u = 200;
+  image.offset_v = 700;
+  const stripe_t stripe = cell.answer(image);
+  REQUIRE(stripe.count > 280);
+  CHECK(stripe.sensor_width == 1600);
+  CHECK(stripe.sensor_height == 1200);
+  for (int i = 0; i < stripe.count; ++i) {
+    REQUIRE(stripe.v[i] == Approx(700 + 60 + 0.05 * (stripe.u[i] - 200 + 10)).margin(0.3));
+    REQUIRE(stripe.rank[i] == stripe_t::CHOSEN);
+    REQUIRE(stripe.segment[i] == 0);
+    REQUIRE(stripe.width[i] > 1);
+    REQUIRE(stripe.deviation[i] > 0);
+    REQUIRE(stripe.strength[i] > 10);
+  }
+  CHECK(stripe.segment_end.front() == stripe_t::BORDER);
+  CHECK(stripe.segment_end.back() == stripe_t::BORDER);
+  CHECK(stripe.segment_end[5] == stripe_t::CONTINUES);
+  CHECK(stripe.noise == Approx(2).epsilon(0.1));
+  CHECK(stripe.saturated_share == 0);
+}
+
+TEST_CASE("a PNG gives the same stripe as the plain bytes") {
+  image_t image = Cell::image(picture(), 0);
+  const stripe_t plain = Cell().answer(image);
+  cv::imencode(".png", picture(), image.data);
+  image.size = static_cast<std::int32_t>(image.data.size());
+  image.encoding = image_t::PNG;
+  CHECK(encode(Cell().answer(image)) == encode(plain));
+}
+
+TEST_CASE("what holds no stripe gives an empty one with its reason") {
+  Cell cell;
+  std::int64_t seq = 0;
+  const auto reason = [&](image_t image) {
+    image.seq = seq;
+    image.scan_index = static_cast<std::int32_t>(seq++);
+    return cell.answer(image).empty;
+  };
+  image_t incomplete = Cell::image(picture(), 0);
+  incomplete.incomplete = "3 packets missing";
+  incomplete.data.clear();
+  incomplete.size = 0;
+  CHECK(reason(incomplete) == "image incomplete: 3 packets missing");
+  image_t dark = Cell::image(picture(), 0);
+  dark.laser_on = 0;
+  CHECK(reason(dark) == "laser off");
+  CHECK(reason(Cell::image(cv::Mat(160, 320, CV_8U, cv::Scalar(0)), 0)) == "no stripe found");
+  CHECK(reason(Cell::image(cv::Mat(160, 320, CV_8U, cv::Scalar(255)), 0)) == "no stripe found");
+  CHECK(reason(Cell::image(cv::Mat(1, 1, CV_8U, cv::Scalar(7)), 0)) == "no stripe found");
+
+  image_t png = Cell::image(picture(), 0);
+  png.encoding = image_t::PNG;
+  CHECK(reason(png) == "not a PNG");
+  cv::imencode(".png", picture(), png.data);
+  const auto whole = png.data;
+  const auto with = [&](const std::vector<std::uint8_t>& bytes) {
+    png.data = bytes;
+    png.size = static_cast<std::int32_t>(bytes.size());
+    return png;
+  };
+  CHECK(reason(with({whole.begin(), whole.begin() + 5000})) == "PNG is cut short");
+  std::vector<std::uint8_t> damaged = whole;
+  damaged[3000] ^= 0x55;
+  CHECK(reason(with(damaged)) == "PNG is damaged");
+  cv::Mat smaller = picture()(cv::Rect(0, 0, 300, 160)).clone();
+  std::vector<std::uint8_t> other;
+  cv::imencode(".png", smaller, other);
+  CHECK(reason(with(other)) == "PNG is 300 x 160, announced were 320 x 160");
+  std::mt19937 random(2);
+  for (int i = 0; i < 50; ++i) {
+    std::vector<std::uint8_t> noise(1 + random() % 2000);
+    for (auto& byte : noise) byte = static_cast<std::uint8_t>(random());
+    CHECK(reason(with(noise)) == "not a PNG");
+  }
+  // And after all that it works as before.
+  CHECK(reason(Cell::image(picture(), 0)).empty());
+  CHECK(cell.health().lost == 0);
+}
+
+TEST_CASE("gaps in a scan's sequence are counted as lost, what lies between scans is not") {
+  Cell cell;
+  const cv::Mat grey = picture();
+  for (const int seq : {0, 1, 2, 5, 6}) cell.answer(Cell::image(grey, seq));
+  CHECK(cell.health().lost == 2);
+  CHECK(cell.health().last_error.find("seq 5") != std::string::npos);
+  cell.answer(Cell::image(grey, 90, 0));  // single images outside a scan
+  cell.answer(Cell::image(grey, 120, 0));
+  CHECK(cell.health().lost == 2);
+  image_t next = Cell::image(grey, 500, 2000);
+  next.scan_index = 0;
+  cell.answer(next);
+  CHECK(cell.health().lost == 2);
+  image_t late = Cell::image(grey, 700, 3000);  // the first three of this scan did not come
+  late.scan_index = 3;
+  cell.answer(late);
+  CHECK(cell.health().lost == 5);
+}
+
+TEST_CASE("where the laser is on and off by turns, the image before is subtracted") {
+  // Another line, brighter than the stripe, that does not come from the laser.
+  cv::Mat ambient = darkness(320, 160);
+  add_stripe(ambient, -10, 110, 330, 100, 200, 2);
+  cv::Mat lit = ambient.clone();
+  add_stripe(lit, -10, 60, 330, 77, 100, 2);
+  Cell cell;
+  const auto far_from_stripe = [](const stripe_t& stripe) {
+    int count = 0;
+    for (int i = 0; i < stripe.count; ++i)
+      count += std::abs(stripe.v[i] - 60 - 0.05 * (stripe.u[i] + 10)) > 2;
+    return count;
+  };
+  image_t off = Cell::image(expose(ambient, 2, 1), 0);
+  off.laser_on = 0;
+  CHECK(cell.answer(off).empty == "laser off");
+  const stripe_t& stripe = cell.answer(Cell::image(expose(lit, 2, 2), 1));
+  CHECK(stripe.count > 280);
+  CHECK(far_from_stripe(stripe) == 0);
+  // The image before was not one with the laser off, or was taken in another way.
+  CHECK(far_from_stripe(cell.answer(Cell::image(expose(lit, 2, 3), 2))) > 280);
+  off.seq = off.scan_index = 3;
+  cell.answer(off);
+  image_t longer = Cell::image(expose(lit, 2, 4), 4);
+  longer.exposure_us *= 2;
+  CHECK(far_from_stripe(cell.answer(longer)) > 280);
+}
+
+TEST_CASE("sigma begins anew with each scan, and single images leave no trace") {
+  Cell cell;
+  const cv::Mat narrow = picture(60, 1.5), wide = picture(60, 3.5);
+  const float first = cell.answer(Cell::image(narrow, 0)).sigma;
+  CHECK(cell.answer(Cell::image(wide, 1)).sigma <
+        1.2 * first);  // within the scan it follows slowly
+  image_t other = Cell::image(wide, 40, 2000);
+  other.scan_index = 0;
+  CHECK(cell.answer(other).sigma > 2 * first);
+  CHECK(cell.answer(Cell::image(narrow, 50, 0)).sigma == first);
+  CHECK(cell.answer(Cell::image(wide, 60, 0)).sigma > 2 * first);
+}
+
+TEST_CASE("the same images give the same stripes, byte by byte") {
+  const auto run = [] {
+    Cell cell;
+    std::vector<std::uint8_t> all;
+    for (int seq = 0; seq < 5; ++seq) {
+      const auto bytes =
+          encode(cell.answer(Cell::image(picture(50 + 3 * seq, 1.5 + 0.1 * seq), seq)));
+      all.insert(all.end(), bytes.begin(), bytes.end());
+    }
+    return all;
+  };
+  CHECK(run() == run());
+}

@@ -1,0 +1,46 @@
+#include "services/seam_finding/fit/line_fit.hpp"
+
+#include <catch2/catch.hpp>
+#include <cmath>
+#include <random>
+
+using namespace arcstart;
+using namespace arcstart::seam_finding;
+
+TEST_CASE("a border is the line through its places, outliers aside, with its own deviation") {
+  constexpr double kAt = 3, kSlope = 0.2, kNoise = 0.1;
+  int within = 0, slopes_within = 0;
+  for (unsigned seed = 1; seed <= 200; ++seed) {
+    std::mt19937 engine(seed);
+    std::normal_distribution<double> noise(0, kNoise);
+    std::vector<BorderPlace> places;
+    for (int i = 0; i < 25; ++i)
+      places.push_back({i * 4.0, kAt + kSlope * i * 4.0 + noise(engine), 0, kNoise});
+    places[7].across += 6, places[18].across -= 4;
+    const auto fit = fit_border(places, 0.1);
+    REQUIRE(fit);
+    CHECK(fit->places <= 24);
+    within +=
+        std::abs(fit->across_at(50) - kAt - kSlope * 50) < 2 * std::sqrt(fit->variance_at(50));
+    slopes_within += std::abs(fit->slope - kSlope) < 2 * std::sqrt(fit->slope_variance);
+  }
+  CHECK(within > 180);
+  CHECK(slopes_within > 180);
+}
+
+TEST_CASE("points on a cut give the border at the height wanted") {
+  std::vector<BorderPlace> places;
+  for (int i = 0; i < 20; ++i)
+    for (const double height : {-1.0, -3.0, -5.0})
+      places.push_back({i * 4.0, 2 + 0.577 * height, height, 0.1});
+  const auto free = fit_border(places, 3);
+  REQUIRE(free);
+  CHECK(free->lean == Approx(0.577).margin(0.01));
+  CHECK(free->across_at(40) == Approx(2).margin(0.02));
+}
+
+TEST_CASE("too few places, or all at one place along, give none") {
+  CHECK_FALSE(fit_border({}, 1));
+  CHECK_FALSE(fit_border({{0, 0}, {1, 0}, {2, 0}}, 1));
+  CHECK_FALSE(fit_border(std::vector<BorderPlace>(10, {5, 1}), 1));
+}
