@@ -2,9 +2,12 @@
 #pragma once
 
 #include <Eigen/Geometry>
+#include <numbers>
 #include <optional>
 
 namespace arcstart {
+
+inline constexpr double kDegree = std::numbers::pi / 180;  // rad
 
 // T_a_b takes coordinates in b to coordinates in a.
 using RigidTransform = Eigen::Isometry3d;

@@ -1,7 +1,5 @@
 #include "services/seam_finding/consensus_seam.hpp"
 
-#include <fmt/format.h>
-
 #include <algorithm>
 #include <cmath>
 
@@ -32,8 +30,8 @@ bool agree(const SeamResult& a, const SeamResult& b) {
 
 }  // namespace
 
-SeamResult find_agreed_seam(const ScanCloud& scan, const Background& background,
-                            const SeamFindingSettings& settings, std::uint64_t seed) {
+SeamResult find_consensus_seam(const ScanCloud& scan, const Background& background,
+                               const SeamFindingSettings& settings, std::uint64_t seed) {
   std::vector<SeamResult> results, others;
   const double tolerance =
       scales_of(scan, measure_sampling(scan), settings.plane_tolerance_mm).tolerance;
@@ -55,13 +53,14 @@ SeamResult find_agreed_seam(const ScanCloud& scan, const Background& background,
   if (static_cast<int>(others.size()) >= kAgree || results.empty()) return others.front();
 
   SeamResult refused;
-  refused.reason = fmt::format(
-      "no surface is smooth enough: of {} draws of its planes {} give a seam, and {} of them the "
-      "same one",
-      kDraws, results.size(), support(results[best]));
+  refused.reason = {Reason::Code::kDrawsDisagree, static_cast<double>(results.size()), kDraws,
+                    static_cast<double>(support(results[best]))};
   for (const SeamResult& result : results)
-    refused.alternatives.push_back({result.joint_type, static_cast<double>(support(result)),
-                                    result.start, result.end, "too few draws agree on it"});
+    refused.alternatives.push_back({result.joint_type,
+                                    static_cast<double>(support(result)),
+                                    result.start,
+                                    result.end,
+                                    {Reason::Code::kFewDrawsAgree}});
   std::stable_sort(refused.alternatives.begin(), refused.alternatives.end(),
                    [](const auto& a, const auto& b) { return a.score > b.score; });
   refused.background = results[best].background;

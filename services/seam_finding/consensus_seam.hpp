@@ -16,7 +16,7 @@ namespace arcstart::seam_finding {
 // tolerance that rises from the cloud's own to twice that (unless it is set), and gives the answer
 // on which two thirds of them agree; refuses, with all the seams listed, where there is none. The
 // same seed gives the same answer.
-SeamResult find_agreed_seam(const ScanCloud& scan, const Background& background,
-                            const SeamFindingSettings& settings, std::uint64_t seed);
+SeamResult find_consensus_seam(const ScanCloud& scan, const Background& background,
+                               const SeamFindingSettings& settings, std::uint64_t seed);
 
 }  // namespace arcstart::seam_finding

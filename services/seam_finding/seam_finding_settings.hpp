@@ -61,6 +61,8 @@ struct SeamFindingSettings {
   // ISO 2768-2 allows 0.2 in class H, 0.4 in K, 0.6 in L. The less, the more a place away from the
   // seam tells of the start; places in larger number tell an edge's slope themselves.
   double edge_squareness_mm = 0.2;
+  // The same as a standard deviation: mm along the seam for each mm away from it.
+  double edge_slope() const { return edge_squareness_mm / (2 * 100); }
 
   // Torch.
   double torch_work_angle_deg = 0;     // between it and the flatter plate; 0: in the middle of both

@@ -12,8 +12,6 @@ using Eigen::Vector3d;
 
 namespace {
 
-constexpr double kDegree = std::numbers::pi / 180;
-
 Vector3d random_vector(std::mt19937& random, double size) {
   std::uniform_real_distribution<double> uniform(-size, size);
   const double x = uniform(random), y = uniform(random), z = uniform(random);

@@ -13,18 +13,18 @@ using namespace arcstart::synthetic;
 
 TEST_CASE("a Tee in a cloud without stripes: its draws agree, the answer is that of a scan") {
   const Scene scene = make_scene({}, 3);
-  const SyntheticScan scan = make_scan(scene, {.pitch = 1.8, .thin = 5, .noise = 0.2}, 3);
+  const SyntheticScan scan = make_scan(scene, {.pitch = 1.8, .downsample = 5, .noise = 0.2}, 3);
   ScanCloud cloud = unorganised_cloud(scan.cloud.points);
   cloud.viewpoint = Eigen::Vector3d(50, 200, 300);
   cloud.viewpoint_known = true;
   cloud.search_direction = Eigen::Vector3d::UnitX();
   const PlaneBackground table(cloud, {Eigen::Vector3d::UnitZ(), 0});
-  const SeamResult result = find_agreed_seam(cloud, table, {}, 1);
+  const SeamResult result = find_consensus_seam(cloud, table, {}, 1);
   INFO(result.reason);
   REQUIRE(result.verdict == SeamResult::Verdict::kFound);
   CHECK((result.start - scene.start).norm() < 8);
   CHECK((result.end - scene.end).norm() < 8);
-  const SeamResult again = find_agreed_seam(cloud, table, {}, 1);
+  const SeamResult again = find_consensus_seam(cloud, table, {}, 1);
   CHECK(again.start == result.start);
 }
 
@@ -41,7 +41,7 @@ TEST_CASE("a rough round tube gives no seam, however often its planes are drawn"
     ScanCloud cloud = unorganised_cloud(points);
     cloud.viewpoint = Eigen::Vector3d(0, 50, 500);
     cloud.viewpoint_known = true;
-    const SeamResult result = find_agreed_seam(cloud, NoBackground(), {}, 1);
+    const SeamResult result = find_consensus_seam(cloud, NoBackground(), {}, 1);
     CHECK(result.verdict != SeamResult::Verdict::kFound);
     CHECK_FALSE(result.reason.empty());
   }

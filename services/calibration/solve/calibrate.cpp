@@ -12,11 +12,11 @@
 #include "services/calibration/stages/quaternion_order.hpp"
 #include "services/calibration/stages/scale_consistency.hpp"
 #include "services/calibration/stages/target_symmetry.hpp"
+#include "common/geometry.hpp"
 
 namespace arcstart::calibration {
 namespace {
 
-constexpr double kDegree = std::numbers::pi / 180;
 // Of a view. A centre is an average over its kernel's length, and a stripe's own errors run on for
 // longer: more of them would count one error many times over.
 constexpr int kStripePoints = 40;

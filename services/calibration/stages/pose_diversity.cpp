@@ -1,4 +1,5 @@
 #include "services/calibration/stages/pose_diversity.hpp"
+#include "common/geometry.hpp"
 
 #include <fmt/format.h>
 
@@ -10,7 +11,6 @@
 namespace arcstart::calibration {
 namespace {
 
-constexpr double kDegree = std::numbers::pi / 180;
 constexpr int kFewestViews = 5;
 constexpr double kLeastTilt = 5, kLeastRotation = 15;  // deg
 constexpr double kLeastAxisRatio = 0.1;

@@ -125,7 +125,7 @@ void draw(const seam_finding::ScanCloud& cloud, const seam_finding::SeamResult& 
 // written.
 void write_stations(const seam_finding::SeamResult& result, const std::string& path) {
   std::string text = "distance,x,y,z,residual,tack,gap\n";  // mm
-  for (const seam_finding::SurveyPlace& place : result.stations)
+  for (const seam_finding::SeamMeasurement& place : result.stations)
     text += fmt::format("{:.3f},{:.4f},{:.4f},{:.4f},{},{},{}\n", place.along, place.position.x(),
                         place.position.y(), place.position.z(),
                         place.residual < 0 ? "" : fmt::format("{:.4f}", place.residual),
@@ -180,7 +180,7 @@ int run(const Options& options) {
     background = std::make_unique<seam_finding::PlaneBackground>(cloud, *plane);
   }
   const seam_finding::SeamResult result =
-      seam_finding::find_agreed_seam(cloud, *background, settings, kSeed);
+      seam_finding::find_consensus_seam(cloud, *background, settings, kSeed);
 
   tell(result);
   if (options.json) {

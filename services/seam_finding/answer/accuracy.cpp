@@ -90,15 +90,25 @@ PlaneAccuracy plane_accuracy(const ScanCloud& cloud, const JointPlate& plate,
   return accuracy;
 }
 
-std::optional<SeamAccuracy> seam_accuracy(const std::array<JointPlate, 2>& plates, const Line& line,
-                                          const std::array<PlaneAccuracy, 2>& accuracies,
-                                          const SeamEnd& start, const SeamEnd& end) {
+std::array<PlaneAccuracy, 2> plane_accuracies(const ScanCloud& cloud, const Joint& joint,
+                                              const Scales& scales,
+                                              const SeamFindingSettings& settings) {
+  const auto of_plate = [&](int j) {
+    return plane_accuracy(cloud, joint.plates[j], joint.plates[1 - j], joint.line,
+                          settings.refit_distance_mm, scales.spacing);
+  };
+  return {of_plate(0), of_plate(1)};
+}
+
+std::optional<SeamAccuracy> crossing_accuracy(const Joint& joint,
+                                              const std::array<PlaneAccuracy, 2>& accuracies,
+                                              const std::array<SeamEnd, 2>& ends) {
   if (!accuracies[0].determined || !accuracies[1].determined) return std::nullopt;
   SeamAccuracy accuracy;
-  accuracy.start = covariance_at(plates, line, accuracies, start);
-  accuracy.end = covariance_at(plates, line, accuracies, end);
+  accuracy.start = covariance_at(joint.plates, joint.line, accuracies, ends[0]);
+  accuracy.end = covariance_at(joint.plates, joint.line, accuracies, ends[1]);
   double across = 0;  // of the direction, as a plane's slope along the seam tilts it
-  const double sine = plates[0].plane.normal.cross(plates[1].plane.normal).norm();
+  const double sine = joint.plates[0].plane.normal.cross(joint.plates[1].plane.normal).norm();
   for (int j = 0; j < 2; ++j) {
     across += accuracies[j].slope_along / (sine * sine);
     accuracy.normals[j] = std::sqrt(accuracies[j].slope_along + accuracies[j].slope_away);
@@ -108,11 +118,11 @@ std::optional<SeamAccuracy> seam_accuracy(const std::array<JointPlate, 2>& plate
   return accuracy;
 }
 
-std::optional<SeamAccuracy> flat_accuracy(const Joint& joint,
-                                          const std::array<PlaneAccuracy, 2>& accuracies,
-                                          const SeamEnd& start, const SeamEnd& end) {
+std::optional<SeamAccuracy> parallel_accuracy(const Joint& joint,
+                                              const std::array<PlaneAccuracy, 2>& accuracies,
+                                              const std::array<SeamEnd, 2>& ends) {
   if (!accuracies[0].determined || !accuracies[1].determined) return std::nullopt;
-  const BorderFit& seam = joint.flat->seam;
+  const LineFit& seam = joint.parallel->seam;
   const Eigen::Vector3d& along = joint.line.direction;
   const Eigen::Vector3d across = joint.plates[0].plane.normal.cross(along).normalized();
   const Eigen::Vector3d out = along.cross(across);
@@ -124,8 +134,8 @@ std::optional<SeamAccuracy> flat_accuracy(const Joint& joint,
            accuracies[0].height_at(place.along) * out * out.transpose();
   };
   SeamAccuracy accuracy;
-  accuracy.start = covariance_at(start);
-  accuracy.end = covariance_at(end);
+  accuracy.start = covariance_at(ends[0]);
+  accuracy.end = covariance_at(ends[1]);
   accuracy.direction = std::sqrt(seam.slope_variance + accuracies[0].slope_along);
   for (int j = 0; j < 2; ++j)
     accuracy.normals[j] = std::sqrt(accuracies[j].slope_along + accuracies[j].slope_away);

@@ -1,11 +1,16 @@
 // How well a plate's plane, and the seam between two of them, are known from their points.
 #pragma once
 
+#include <array>
+#include <optional>
+
 #include "services/seam_finding/model/joint.hpp"
 #include "services/seam_finding/model/plate.hpp"
+#include "services/seam_finding/model/scales.hpp"
 #include "services/seam_finding/model/scan_cloud.hpp"
 #include "services/seam_finding/model/seam.hpp"
 #include "services/seam_finding/model/seam_end.hpp"
+#include "services/seam_finding/seam_finding_settings.hpp"
 
 namespace arcstart::seam_finding {
 
@@ -27,16 +32,19 @@ struct PlaneAccuracy {
 PlaneAccuracy plane_accuracy(const ScanCloud& cloud, const JointPlate& plate,
                              const JointPlate& other, const Line& line, double distance_mm,
                              double spacing_mm);
+std::array<PlaneAccuracy, 2> plane_accuracies(const ScanCloud& cloud, const Joint& joint,
+                                              const Scales& scales,
+                                              const SeamFindingSettings& settings);
 
-// Nothing where a plate is seen in too few places.
-std::optional<SeamAccuracy> seam_accuracy(const std::array<JointPlate, 2>& plates, const Line& line,
-                                          const std::array<PlaneAccuracy, 2>& accuracies,
-                                          const SeamEnd& start, const SeamEnd& end);
+// Nothing where a plate is seen in too few places. Across a crossing seam its two planes tell it.
+std::optional<SeamAccuracy> crossing_accuracy(const Joint& joint,
+                                              const std::array<PlaneAccuracy, 2>& accuracies,
+                                              const std::array<SeamEnd, 2>& ends);
 
-// As seam_accuracy(): along the seam from the ends, across it from the borders, out of the plates
-// from the first plate's plane.
-std::optional<SeamAccuracy> flat_accuracy(const Joint& joint,
-                                          const std::array<PlaneAccuracy, 2>& accuracies,
-                                          const SeamEnd& start, const SeamEnd& end);
+// The same between parallel plates: across the seam from the plates' edges, out of the plates from
+// the first plate's plane.
+std::optional<SeamAccuracy> parallel_accuracy(const Joint& joint,
+                                              const std::array<PlaneAccuracy, 2>& accuracies,
+                                              const std::array<SeamEnd, 2>& ends);
 
 }  // namespace arcstart::seam_finding

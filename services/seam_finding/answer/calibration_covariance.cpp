@@ -55,8 +55,8 @@ std::optional<Eigen::Vector3d> place_of(const Calibration& calibration, const Se
 
 }  // namespace
 
-std::optional<Eigen::Matrix3d> systematic_covariance(const Calibration& calibration,
-                                                     const SeenPoint& point) {
+std::optional<Eigen::Matrix3d> calibration_covariance(const Calibration& calibration,
+                                                      const SeenPoint& point) {
   constexpr int kParameters = Calibration::kParameters;
   if (calibration.covariance.size() != kParameters * kParameters) return std::nullopt;
   Eigen::Matrix<double, 3, kParameters> derivative;

@@ -20,7 +20,7 @@ struct SeenPoint {
 // the calibration's 19 parameters, the time offset through the tool's velocity. To first order a
 // seam's start moves as the point there does, for the error changes little over the plates about
 // it. Nothing where the calibration has no covariance or does not carry the pixel to a point.
-std::optional<Eigen::Matrix3d> systematic_covariance(const Calibration& calibration,
-                                                     const SeenPoint& point);
+std::optional<Eigen::Matrix3d> calibration_covariance(const Calibration& calibration,
+                                                      const SeenPoint& point);
 
 }  // namespace arcstart::seam_finding

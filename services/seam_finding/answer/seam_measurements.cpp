@@ -5,14 +5,18 @@
 #include <cmath>
 #include <map>
 
+#include "services/seam_finding/gaps/root_gap.hpp"
+
 namespace arcstart::seam_finding {
 namespace {
 
 constexpr double kFrom = 4,
                  kTo = 20;  // from the seam: where a plate is straight again, and local; mm
 constexpr int kLeastPoints = 3;
-constexpr double kTackReach = 8;   // a bead lies so near the seam; mm
+// A bead lies so near the seam: a fillet's on the plates, that of parallel plates on their top; mm.
+constexpr double kTackReach = 8, kParallelTackReach = 6;
 constexpr double kTackHeight = 1;  // and stands so far before both plates; mm
+constexpr int kTackPoints = 2;     // that chance does not put there
 
 struct Seen {
   double height[2] = {0, 0};
@@ -40,11 +44,11 @@ void for_each_on_bead(const ScanCloud& cloud, int first, int last,
   }
 }
 
-}  // namespace
-
-std::vector<SurveyPlace> survey_seam(const ScanCloud& cloud,
-                                     const std::array<JointPlate, 2>& plates, const Line& line,
-                                     double begin, double end, double spacing_mm) {
+// Where the stripes' heights over the two planes put the seam.
+std::vector<SeamMeasurement> places_by_heights(const ScanCloud& cloud,
+                                               const std::array<JointPlate, 2>& plates,
+                                               const Line& line, double begin, double end,
+                                               double spacing_mm) {
   std::map<int, Seen> by_stripe;
   const auto key = [&](int i, double along) {
     return cloud.organised() ? cloud.origins[i].stripe
@@ -86,13 +90,13 @@ std::vector<SurveyPlace> survey_seam(const ScanCloud& cloud,
   rows << plates[0].plane.normal.transpose(), plates[1].plane.normal.transpose(),
       line.direction.transpose();
   const Eigen::Matrix3d inverse = rows.inverse();
-  std::vector<SurveyPlace> places;
+  std::vector<SeamMeasurement> places;
   for (const auto& [stripe, seen] : by_stripe) {
-    SurveyPlace place;
+    SeamMeasurement place;
     place.along = seen.place();
     if (cloud.organised()) place.stripe = stripe;
     place.position = line.at(place.along);
-    place.tack = seen.bead >= 2;
+    place.tack = seen.bead >= kTackPoints;
     if (seen.count[0] >= kLeastPoints && seen.count[1] >= kLeastPoints) {
       const Eigen::Vector3d off = inverse * Eigen::Vector3d(seen.height[0] / seen.count[0],
                                                             seen.height[1] / seen.count[1], 0);
@@ -102,16 +106,78 @@ std::vector<SurveyPlace> survey_seam(const ScanCloud& cloud,
     places.push_back(place);
   }
   std::sort(places.begin(), places.end(),
-            [](const SurveyPlace& a, const SurveyPlace& b) { return a.along < b.along; });
+            [](const SeamMeasurement& a, const SeamMeasurement& b) { return a.along < b.along; });
   return places;
 }
 
-Polyline polyline_through(const std::vector<SurveyPlace>& places, const Eigen::Vector3d& start,
+// A place for every station of the coverage.
+std::vector<SeamMeasurement> places_by_stations(const ScanCloud& cloud, const Joint& joint,
+                                                double begin, double end, double spacing_mm) {
+  std::vector<SeamMeasurement> places;
+  for (const Station& station : joint.coverage.stations.list) {
+    if (!station.known || station.along < begin || station.along > end) continue;
+    SeamMeasurement place;
+    place.along = station.along;
+    place.stripe = station.stripe;
+    place.position = joint.line.at(place.along);
+    for (const ParallelSeam::Gap& gap : joint.parallel->gaps)
+      if (std::abs(gap.along - place.along) < spacing_mm / 2)
+        place.gap = gap.width, place.gap_deviation = joint.parallel->gap_deviation;
+    places.push_back(place);
+  }
+  std::vector<int> bead(places.size());
+  for (const Eigen::Vector3d& point : cloud.points) {
+    if (joint.line.distance(point) > kParallelTackReach ||
+        joint.plates[0].plane.signed_distance(point) < kTackHeight ||
+        joint.plates[1].plane.signed_distance(point) < kTackHeight)
+      continue;
+    for (std::size_t i = 0; i < places.size(); ++i)
+      bead[i] += std::abs(joint.line.along(point) - places[i].along) < spacing_mm / 2;
+  }
+  for (std::size_t i = 0; i < places.size(); ++i) places[i].tack = bead[i] >= kTackPoints;
+  return places;
+}
+
+// Of a tee, an inside corner and a lap; those of butt joints and grooves come with their stations.
+std::vector<SeamMeasurement> with_root_gaps(const ScanCloud& scan, const Joint& joint,
+                                            std::vector<SeamMeasurement> stations) {
+  std::array<JointPlate, 2> plates = joint.plates;
+  int standing = -1;
+  if (joint.type == JointType::kLap) {
+    // The upper plate's cut, square to the lower plate.
+    const JointPlate& lower = plates[joint.parallel->lower];
+    standing = 1 - joint.parallel->lower;
+    plates[standing] = JointPlate{};
+    plates[standing].plane = {lower.away, -lower.away.dot(joint.line.point)};
+  } else if (joint.type != JointType::kTee && joint.type != JointType::kCorner) {
+    return stations;
+  }
+  const auto gaps = root_gaps(scan, plates, joint.line, standing);
+  for (SeamMeasurement& place : stations)
+    if (place.stripe >= 0 && !place.tack && gaps[place.stripe])
+      place.gap = gaps[place.stripe]->width, place.gap_deviation = gaps[place.stripe]->deviation;
+  return stations;
+}
+
+}  // namespace
+
+std::vector<SeamMeasurement> measure_crossing_seam(const ScanCloud& cloud, const Joint& joint,
+                                                   double begin, double end, double spacing_mm) {
+  return with_root_gaps(cloud, joint,
+                        places_by_heights(cloud, joint.plates, joint.line, begin, end, spacing_mm));
+}
+
+std::vector<SeamMeasurement> measure_parallel_seam(const ScanCloud& cloud, const Joint& joint,
+                                                   double begin, double end, double spacing_mm) {
+  return with_root_gaps(cloud, joint, places_by_stations(cloud, joint, begin, end, spacing_mm));
+}
+
+Polyline polyline_through(const std::vector<SeamMeasurement>& places, const Eigen::Vector3d& start,
                           const Eigen::Vector3d& end, double straight_mm) {
   Polyline polyline;
   polyline.points = {start, end};
   std::vector<Eigen::Vector3d> measured;
-  for (const SurveyPlace& place : places)
+  for (const SeamMeasurement& place : places)
     if (place.residual >= 0) measured.push_back(place.position);
   if (measured.size() < 3) return polyline;
   const Line line{start, (end - start).normalized()};

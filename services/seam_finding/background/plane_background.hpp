@@ -4,6 +4,7 @@
 #include <cstdint>
 #include <optional>
 
+#include "common/geometry.hpp"
 #include "services/seam_finding/background/background.hpp"
 #include "services/seam_finding/model/scan_cloud.hpp"
 

@@ -4,19 +4,19 @@
 #include <vector>
 
 #include "services/seam_finding/background/background.hpp"
-#include "services/seam_finding/cloud/thinned_cloud.hpp"
+#include "services/seam_finding/cloud/downsampled_cloud.hpp"
 
 namespace arcstart::seam_finding {
 
 // A cloud's points by whether they are background, indices, rising.
-struct Division {
-  std::vector<int> background, left;
-  int size() const { return static_cast<int>(background.size() + left.size()); }
+struct Segmentation {
+  std::vector<int> background, workpiece;
+  int size() const { return static_cast<int>(background.size() + workpiece.size()); }
 };
 // Goes on behind the last point that is divided already: a scan can be divided stripe by stripe.
-void divide(const ScanCloud& scan, const Background& background, Division& division);
+void segment(const ScanCloud& scan, const Background& background, Segmentation& segmentation);
 
-// The same of the thinned points.
-Division division_of(const ThinnedCloud& thinned, const Division& whole);
+// The same of the thinned points, by their own places.
+Segmentation segmentation_of(const DownsampledCloud& downsampled, const Segmentation& whole);
 
 }  // namespace arcstart::seam_finding

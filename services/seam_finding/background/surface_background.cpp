@@ -1,9 +1,10 @@
+#include "services/seam_finding/background/surface_background.hpp"
+
 #include <algorithm>
 #include <array>
 #include <cmath>
 #include <utility>
 
-#include "services/seam_finding/background/background.hpp"
 #include "services/seam_finding/fit/plane_fit.hpp"
 
 namespace arcstart::seam_finding {

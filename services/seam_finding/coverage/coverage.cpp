@@ -10,6 +10,7 @@
 namespace arcstart::seam_finding {
 namespace {
 
+constexpr double kBridge = 20;      // a seam goes on behind an interruption no longer than this; mm
 constexpr double kLoneGap = 2.5;    // stripe spacings
 constexpr double kSamePlace = 0.3;  // of the spacing: the tool stood still
 
@@ -51,14 +52,14 @@ using HiddenBetween = std::function<bool(int, int)>;
 // The longest, and what lies beyond short interruptions of it, or such where it is hidden. A lone
 // stripe is part of the seam only where no more than one stripe lies between.
 Stretch longest(const std::vector<Stretch>& found, const std::vector<Station>& stations,
-                const CourseSearch& search, const HiddenBetween& hidden) {
+                const Scales& scales, const HiddenBetween& hidden) {
   const auto best =
       std::max_element(found.begin(), found.end(),
                        [](const Stretch& a, const Stretch& b) { return a.covered < b.covered; });
   Stretch whole = *best;
   const auto joins = [&](const Stretch& piece, int from, int to) {
     const double gap = stations[to].along - stations[from].along;
-    return gap <= (piece.stripes < 2 ? kLoneGap * search.spacing : search.bridge) ||
+    return gap <= (piece.stripes < 2 ? kLoneGap * scales.spacing : kBridge) ||
            (hidden && hidden(from, to));
   };
   const auto take = [&](const Stretch& piece) {
@@ -90,12 +91,11 @@ double end_beyond(const std::vector<Station>& stations, int from, int step, int&
   return stations[from].along;
 }
 
-Course course_of(const Stations& stations, const CourseSearch& search,
-                 const HiddenBetween& hidden) {
-  Course course;
-  const auto found = stretches(stations, search.spacing);
+Coverage coverage_of(const Stations& stations, const Scales& scales, const HiddenBetween& hidden) {
+  Coverage course;
+  const auto found = stretches(stations, scales.spacing);
   if (found.empty()) return course;
-  const Stretch whole = longest(found, stations.list, search, hidden);
+  const Stretch whole = longest(found, stations.list, scales, hidden);
   course.stripes = whole.stripes;
   course.covered = whole.covered;
   course.begin =
@@ -106,44 +106,20 @@ Course course_of(const Stations& stations, const CourseSearch& search,
 
 }  // namespace
 
-CourseSearch course_search(const Scales& scales) {
-  CourseSearch search;
-  search.spacing = scales.spacing;
-  search.tolerance = scales.tolerance;
-  return search;
-}
-
-Course find_course(const ScanCloud& cloud, const std::array<JointPlate, 2>& plates,
-                   const Line& line, const CourseSearch& search) {
-  Stations stations = stations_along(cloud, plates, line, search);
-  Course course = course_of(stations, search, [&](int from, int to) {
-    return hidden_between(cloud, plates, line, stations, from, to, search.tolerance);
+Coverage find_coverage(const ScanCloud& cloud, const std::array<JointPlate, 2>& plates,
+                       const Line& line, const Scales& scales) {
+  Stations stations = stations_along(cloud, plates, line, scales);
+  Coverage course = coverage_of(stations, scales, [&](int from, int to) {
+    return occluded_between(cloud, plates, line, stations, from, to, scales.tolerance);
   });
   course.stations = std::move(stations);
   return course;
 }
 
-Course find_course(Stations stations, const CourseSearch& search) {
-  Course course = course_of(stations, search, nullptr);
+Coverage find_coverage(Stations stations, const Scales& scales) {
+  Coverage course = coverage_of(stations, scales, nullptr);
   course.stations = std::move(stations);
   return course;
-}
-
-double centroid_of_first(const ScanCloud& cloud, const std::array<JointPlate, 2>& plates,
-                         const Line& line, const Course& course, int count) {
-  std::vector<double> places;
-  for (const JointPlate& plate : plates)
-    for (const int i : plate.points) {
-      const double t = line.along(cloud.points[i]);
-      if (t >= course.begin && t <= course.end && line.distance(cloud.points[i]) <= plate.contact)
-        places.push_back(t);
-    }
-  if (places.empty()) return course.begin;
-  std::sort(places.begin(), places.end());
-  places.resize(std::min(places.size(), static_cast<std::size_t>(count)));
-  double sum = 0;
-  for (const double t : places) sum += t;
-  return sum / static_cast<double>(places.size());
 }
 
 }  // namespace arcstart::seam_finding

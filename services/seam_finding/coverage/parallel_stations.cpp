@@ -29,14 +29,14 @@ double running_on(const ScanCloud& cloud, const JointPlate& plate, double tolera
 
 }  // namespace
 
-std::array<Stations, 2> stations_by_border(const ScanCloud& cloud, const Joint& joint,
-                                           const CourseSearch& search) {
+std::array<Stations, 2> stations_by_edge(const ScanCloud& cloud, const Joint& joint,
+                                         const Scales& scales) {
   std::array<Stations, 2> stations;
   // Up to its border what lies on a plate is its own: no other plate's face begins there.
-  CourseSearch to_border = search;
+  Scales to_border = scales;
   to_border.tolerance = 0;
   for (int j = 0; j < 2; ++j) {
-    const Line& border = joint.flat->borders[j];
+    const Line& border = joint.parallel->edges[j];
     // Of a lap the other plate lies at another height, where stripes cross elsewhere.
     std::array<JointPlate, 2> plates = joint.plates;
     plates[1 - j].points.clear();
@@ -44,7 +44,7 @@ std::array<Stations, 2> stations_by_border(const ScanCloud& cloud, const Joint& 
     for (Station& station : stations[j].list)
       station.along = joint.line.along(border.at(station.along));
     if (cloud.organised())
-      stations[j].near[j] = running_on(cloud, joint.plates[j], search.tolerance);
+      stations[j].near[j] = running_on(cloud, joint.plates[j], scales.tolerance);
   }
   return stations;
 }

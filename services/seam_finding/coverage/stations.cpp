@@ -135,19 +135,19 @@ void mark_unknown(const ScanCloud& cloud, std::vector<Station>& stations) {
 }
 
 Stations stripe_stations(const ScanCloud& cloud, const std::array<JointPlate, 2>& plates,
-                         const Line& line, const CourseSearch& search) {
-  std::array<Sights, 2> sights = {sights_of(cloud, plates[0], plates[1], line, search.tolerance),
-                                  sights_of(cloud, plates[1], plates[0], line, search.tolerance)};
+                         const Line& line, const Scales& scales) {
+  std::array<Sights, 2> sights = {sights_of(cloud, plates[0], plates[1], line, scales.tolerance),
+                                  sights_of(cloud, plates[1], plates[0], line, scales.tolerance)};
   const Places places = carried_crossings(cloud, seen_crossings(sights, plates), line);
   Stations found;
   for (int j = 0; j < 2; ++j) {
     found.slant[j] = slant_of(sights[j]);
-    found.near[j] = near_limit(sights[j], search.tolerance, plates[j].contact);
+    found.near[j] = near_limit(sights[j], scales.tolerance, plates[j].contact);
   }
   std::vector<Station>& stations = found.list;
   stations.resize(cloud.stripes.size());
   for (int k = 0; k < static_cast<int>(stations.size()); ++k)
-    stations[k] = {guessed_crossing(places, k, search.spacing),
+    stations[k] = {guessed_crossing(places, k, scales.spacing),
                    {sights[0].stripes[k].nearest, sights[1].stripes[k].nearest},
                    true,
                    k};
@@ -159,14 +159,14 @@ Stations stripe_stations(const ScanCloud& cloud, const std::array<JointPlate, 2>
 
 // A plate goes on where its points near the line leave no wide gap.
 Stations piece_stations(const ScanCloud& cloud, const std::array<JointPlate, 2>& plates,
-                        const Line& line, const CourseSearch& search) {
+                        const Line& line, const Scales& scales) {
   std::array<std::vector<double>, 2> places;
   double low = kInfinity, high = -kInfinity;
   for (int j = 0; j < 2; ++j) {
     const Eigen::Vector3d away = away_from_seam(plates[j], plates[1 - j]);
     for (const int i : plates[j].points)
       if (const double r = away.dot(cloud.points[i] - line.point);
-          r > search.tolerance && r <= plates[j].contact)
+          r > scales.tolerance && r <= plates[j].contact)
         places[j].push_back(line.along(cloud.points[i]));
     if (places[j].empty()) return {};
     std::sort(places[j].begin(), places[j].end());
@@ -174,7 +174,7 @@ Stations piece_stations(const ScanCloud& cloud, const std::array<JointPlate, 2>&
   }
   Stations found;
   found.near = {plates[0].contact, plates[1].contact};
-  for (double t = low - search.spacing; t <= high + search.spacing; t += search.spacing) {
+  for (double t = low - scales.spacing; t <= high + scales.spacing; t += scales.spacing) {
     Station station{t, {kInfinity, kInfinity}};
     for (int j = 0; j < 2; ++j) {
       const auto after = std::lower_bound(places[j].begin(), places[j].end(), t);
@@ -190,9 +190,9 @@ Stations piece_stations(const ScanCloud& cloud, const std::array<JointPlate, 2>&
 }  // namespace
 
 Stations stations_along(const ScanCloud& cloud, const std::array<JointPlate, 2>& plates,
-                        const Line& line, const CourseSearch& search) {
-  return cloud.organised() ? stripe_stations(cloud, plates, line, search)
-                           : piece_stations(cloud, plates, line, search);
+                        const Line& line, const Scales& scales) {
+  return cloud.organised() ? stripe_stations(cloud, plates, line, scales)
+                           : piece_stations(cloud, plates, line, scales);
 }
 
 }  // namespace arcstart::seam_finding

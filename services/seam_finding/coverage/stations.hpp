@@ -7,6 +7,7 @@
 #include "common/geometry.hpp"
 #include "services/seam_finding/model/coverage.hpp"
 #include "services/seam_finding/model/plate.hpp"
+#include "services/seam_finding/model/scales.hpp"
 #include "services/seam_finding/model/scan_cloud.hpp"
 
 namespace arcstart::seam_finding {
@@ -17,6 +18,6 @@ namespace arcstart::seam_finding {
 // tool's way from the nearest stripe that does. A cloud without stripes has one for every `spacing`
 // of the line.
 Stations stations_along(const ScanCloud& cloud, const std::array<JointPlate, 2>& plates,
-                        const Line& line, const CourseSearch& search);
+                        const Line& line, const Scales& scales);
 
 }  // namespace arcstart::seam_finding

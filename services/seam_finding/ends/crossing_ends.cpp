@@ -85,31 +85,32 @@ class EndFinder {
  public:
   EndFinder(const ScanCloud& cloud, const std::array<JointPlate, 2>& plates,
             const std::array<PlateStripes, 2>& stripes, const Stations& stations, SeamSide side,
-            const EndSearch& search)
+            const Scales& scales, const SeamFindingSettings& settings)
       : cloud_(cloud),
         plates_(plates),
         stripes_(stripes),
         stations_(stations),
         side_(side),
         outward_(side == SeamSide::kEnd ? 1 : -1),
-        search_(search) {}
+        scales_(scales),
+        settings_(settings) {}
 
   // About a place between two stripes. Where `reach` is given no stripe shows the seam between the
   // course and that place, up to which both plates are there.
   SeamEnd find(double along, std::optional<double> reach = std::nullopt) {
     extents_ = {};
     for (int j = 0; j < 2; ++j) {
-      brackets_[j] = bracket_of(stations_, j, along, outward_);
-      if (reach) brackets_[j].inner = *reach;
+      intervals_[j] = interval_of(stations_, j, along, outward_);
+      if (reach) intervals_[j].inner = *reach;
     }
-    const double width = std::abs(brackets_[0].outer - brackets_[0].inner);
+    const double width = std::abs(intervals_[0].outer - intervals_[0].inner);
     SeamEnd end{along, width * width / 12};
     end.visibility = EndVisibility::kSeen;
     for (int j = 0; j < 2; ++j) seek_edge(j, width);
     // A stripe that shows nothing of a plate behind what hides the seam tells nothing of its end.
     if (reach)
-      for (EndBracket& bracket : brackets_)
-        bracket.outer = outward_ * std::numeric_limits<double>::infinity();
+      for (EndInterval& interval : intervals_)
+        interval.outer = outward_ * std::numeric_limits<double>::infinity();
     for (int j = 0; j < 2; ++j) compare_with_extent(j, along);
     for (int j = 0; j < 2; ++j) seek_flush_edge(j);
     for (int j = 0; j < 2; ++j) drop_early_edge(j);
@@ -120,9 +121,9 @@ class EndFinder {
     const auto behind = reach ? std::nullopt : both_reach(along, width);
     if (behind)  // the stripe that shows a plate so far need not show it at the seam
       return find(*behind + outward_ * width / 2, behind);
-    between_brackets(end, brackets_, outward_);
+    between_intervals(end, intervals_, outward_);
     end.visibility =
-        seen_beyond(cloud_, stations_, plates_, line(), end.along, outward_, search_.tolerance);
+        seen_beyond(cloud_, stations_, plates_, line(), end.along, outward_, scales_.tolerance);
     return end;
   }
 
@@ -133,59 +134,56 @@ class EndFinder {
   }
 
   void seek_edge(int j, double width) {
-    EdgeSearch& edge = searches_[j];
+    EdgeWindow& window = windows_[j];
     const double margin = unsure_of(stations_, j);
-    const double inner = brackets_[j].inner - outward_ * margin;
-    const double outer = brackets_[j].outer + outward_ * std::max(margin, width);
-    edge.from = std::min(inner, outer);
-    edge.to = std::max(inner, outer);
-    edge.beyond = kBeyond * width;
-    edge.tolerance = search_.tolerance;
-    edge.noise = search_.noise;
-    edge.shortening_px = search_.shortening_px;
-    edge.slope = search_.slope;
-    edges_[j] = find_edge(cloud_, stripes_[j], side_, edge);
+    const double inner = intervals_[j].inner - outward_ * margin;
+    const double outer = intervals_[j].outer + outward_ * std::max(margin, width);
+    window.from = std::min(inner, outer);
+    window.to = std::max(inner, outer);
+    window.beyond = kBeyond * width;
+    edges_[j] = find_edge(cloud_, stripes_[j], side_, window, scales_, settings_);
   }
 
   // Of several stripes' edge no more is asked than whether the plate goes on behind it.
   void compare_with_extent(int j, double along) {
-    if (!edges_[j] && brackets_[j].runs_on) {
+    if (!edges_[j] && intervals_[j].runs_on) {
       // So it says up to the next stripe; the other plate may end much farther out.
-      if (!edges_[1 - j] || outward_ * (edges_[1 - j]->along - brackets_[j].outer) < kFartherOut)
+      if (!edges_[1 - j] || outward_ * (edges_[1 - j]->along - intervals_[j].outer) < kFartherOut)
         return;
-      brackets_[j] = {brackets_[j].inner, outward_ * std::numeric_limits<double>::infinity()};
+      intervals_[j] = {intervals_[j].inner, outward_ * std::numeric_limits<double>::infinity()};
     }
     PlateExtent& extent = extents_[j];
     const StripeCrossings crossings = crossings_of(cloud_, stations_, j);
-    extent.on = seen_on_plate(cloud_, stripes_[j], side_, along, search_, crossings);
+    extent.on = seen_on_plate(cloud_, stripes_[j], side_, along, scales_, crossings);
     if (edges_[j] && edges_[j]->stripes > 1) {
       // What lies in the plate's plane farther from the seam than they tell its edge may be another
       // thing.
       PlateExtent beside = extent;
-      beside.on = seen_on_plate(cloud_, stripes_[j], side_, along, search_, crossings,
+      beside.on = seen_on_plate(cloud_, stripes_[j], side_, along, scales_, crossings,
                                 edges_[j]->clear_to + kBesideEdge);
       if (possible(*edges_[j], beside, outward_)) return;
     }
-    extent = plate_extent(cloud_, stripes_[j], side_, along, search_, crossings);
+    extent = plate_extent(cloud_, stripes_[j], side_, along, scales_, crossings);
     if (edges_[j] && !possible(*edges_[j], extent, outward_)) edges_[j].reset();
     // Nor, where something is seen past the plate, does one that shows nothing of it behind what
     // may hide it.
-    if (!brackets_[j].runs_on && std::isfinite(extent.past) && hidden(j, along))
-      brackets_[j].outer = outward_ * std::numeric_limits<double>::infinity();
+    if (!intervals_[j].runs_on && std::isfinite(extent.past) && hidden(j, along))
+      intervals_[j].outer = outward_ * std::numeric_limits<double>::infinity();
     // Where stripes cross the one plate's edge, they may leave this one unseen.
     const double slant = edges_[1 - j] ? std::max(0.0, outward_ * stations_.slant[j]) : 0;
     if (!edges_[j])
-      narrow(brackets_[j], extent, unsure_of(stations_, j), kUnseen * stations_.near[j] * slant,
+      narrow(intervals_[j], extent, unsure_of(stations_, j), kUnseen * stations_.near[j] * slant,
              outward_);
   }
 
   // Of single stripes, the one that agrees with the other plate's edge.
   void seek_flush_edge(int j) {
     if (!edges_[0] || !edges_[1] || edges_[j]->stripes > 1 || edges_[1 - j]->stripes < 2) return;
-    searches_[j].beyond = 0;
-    searches_[j].from = edges_[1 - j]->along - kFlushWithin;
-    searches_[j].to = edges_[1 - j]->along + kFlushWithin;
-    if (const auto flush = find_edge(cloud_, stripes_[j], side_, searches_[j])) edges_[j] = flush;
+    windows_[j].beyond = 0;
+    windows_[j].from = edges_[1 - j]->along - kFlushWithin;
+    windows_[j].to = edges_[1 - j]->along + kFlushWithin;
+    if (const auto flush = find_edge(cloud_, stripes_[j], side_, windows_[j], scales_, settings_))
+      edges_[j] = flush;
   }
 
   // A lone stripe that ends before the other plate does may end in a shadow, or behind something:
@@ -196,7 +194,7 @@ class EndFinder {
     const Eigen::Vector3d place = line().at(edge.along) + edge.away * stripes_[j].away;
     if (!edge.occluded && !may_hide(cloud_, plates_[j], plates_[1 - j], place)) return;
     extents_[j].on = std::max(extents_[j].on, outward_ * edge.along);
-    narrow(brackets_[j], extents_[j], unsure_of(stations_, j), 0, outward_);
+    narrow(intervals_[j], extents_[j], unsure_of(stations_, j), 0, outward_);
     edges_[j].reset();
   }
 
@@ -214,8 +212,8 @@ class EndFinder {
     end.along = edge.along;
     end.variance = edge.variance;
     for (int j = 0; j < 2; ++j) {
-      if (edges_[j] || brackets_[j].runs_on) continue;
-      limit_by_bracket(end, brackets_[j], outward_);
+      if (edges_[j] || intervals_[j].runs_on) continue;
+      limit_by_interval(end, intervals_[j], outward_);
       if (end.along != edge.along && hidden(j, end.along))
         end.visibility = EndVisibility::kNotDetermined;
     }
@@ -228,7 +226,7 @@ class EndFinder {
     if (!stands_before(cloud_, plates_, line(), stations_, end, kBeside)) return std::nullopt;
     double reach = std::numeric_limits<double>::infinity();
     for (int j = 0; j < 2; ++j)
-      reach = std::min(reach, seen_on_plate(cloud_, stripes_[j], side_, end, search_,
+      reach = std::min(reach, seen_on_plate(cloud_, stripes_[j], side_, end, scales_,
                                             crossings_of(cloud_, stations_, j)));
     if (!(reach > outward_ * end + width)) return std::nullopt;
     return outward_ * reach;
@@ -240,26 +238,33 @@ class EndFinder {
   const Stations& stations_;
   SeamSide side_;
   double outward_;  // places times this rise outward
-  const EndSearch& search_;
-  std::array<EndBracket, 2> brackets_;
-  std::array<EdgeSearch, 2> searches_;
+  const Scales& scales_;
+  const SeamFindingSettings& settings_;
+  std::array<EndInterval, 2> intervals_;
+  std::array<EdgeWindow, 2> windows_;
   std::array<std::optional<PlateEdge>, 2> edges_;
   std::array<PlateExtent, 2> extents_;
 };
 
 }  // namespace
 
-SeamEnd find_end(const ScanCloud& cloud, const std::array<JointPlate, 2>& plates,
-                 const Course& course, const std::array<PlateStripes, 2>& stripes, SeamSide side,
-                 const EndSearch& search) {
-  const bool begin = side == SeamSide::kBegin;
-  const double along = begin ? course.begin : course.end;
-  if (!(begin ? course.begins_outside : course.ends_outside))
-    return EndFinder(cloud, plates, stripes, course.stations, side, search).find(along);
-  const EndBracket bracket = bracket_of(course.stations, 0, along, begin ? -1 : 1);
-  SeamEnd end{along, std::pow(bracket.outer - bracket.inner, 2) / 12};
-  end.visibility = EndVisibility::kOutside;
-  return end;
+std::array<SeamEnd, 2> find_crossing_ends(const ScanCloud& cloud, const Joint& joint,
+                                          const Scales& scales,
+                                          const SeamFindingSettings& settings) {
+  const auto stripes = plate_stripes(cloud, joint.plates, joint.line, scales);
+  const Coverage& course = joint.coverage;
+  const auto end_at = [&](SeamSide side) {
+    const bool begin = side == SeamSide::kBegin;
+    const double along = begin ? course.begin : course.end;
+    if (!(begin ? course.begins_outside : course.ends_outside))
+      return EndFinder(cloud, joint.plates, stripes, course.stations, side, scales, settings)
+          .find(along);
+    const EndInterval interval = interval_of(course.stations, 0, along, begin ? -1 : 1);
+    SeamEnd end{along, std::pow(interval.outer - interval.inner, 2) / 12};
+    end.visibility = EndVisibility::kOutside;
+    return end;
+  };
+  return {end_at(SeamSide::kBegin), end_at(SeamSide::kEnd)};
 }
 
 }  // namespace arcstart::seam_finding

@@ -45,7 +45,7 @@ double thinned_step(const ScanCloud& cloud, const std::vector<int>& run) {
 // Where along the seam the cut is over whose edge the stripe turns, from its next points: a cut is
 // square to the plate, so that what lies on it lies at the edge.
 std::optional<double> cut_beyond(const ScanCloud& cloud, const JointPlate& plate, const Line& line,
-                                 int last, bool at_back, const EdgeSearch& search) {
+                                 int last, bool at_back, const Scales& scales) {
   const int step = at_back ? 1 : -1;
   double sum = 0, first_along = 0, first_depth = 0;
   for (int k = 1; k <= kMostOnCut; ++k) {
@@ -59,7 +59,7 @@ std::optional<double> cut_beyond(const ScanCloud& cloud, const JointPlate& plate
     sum += along;
     const double drop = depth - first_depth;
     if (drop < kLeastDrop) continue;
-    if (std::abs(along - first_along) > kCutSlant * drop + kOutlier * kBeam * search.noise) break;
+    if (std::abs(along - first_along) > kCutSlant * drop + kOutlier * kBeam * scales.noise) break;
     return sum / k;
   }
   return std::nullopt;
@@ -93,9 +93,10 @@ double pixel_along(const ScanCloud& cloud, int end, int next, const Line& line,
 
 }  // namespace
 
-std::optional<EdgePlace> edge_place(const ScanCloud& cloud, const std::vector<int>& run,
-                                    const PlateStripes& stripes, SeamSide side,
-                                    const EdgeSearch& search) {
+std::optional<EdgeCrossing> edge_crossing(const ScanCloud& cloud, const std::vector<int>& run,
+                                          const PlateStripes& stripes, SeamSide side,
+                                          const Scales& scales,
+                                          const SeamFindingSettings& settings) {
   if (run.size() < 3) return std::nullopt;
   const JointPlate& plate = stripes.plate;
   const Line& line = stripes.line;
@@ -106,7 +107,7 @@ std::optional<EdgePlace> edge_place(const ScanCloud& cloud, const std::vector<in
   const ScanStripe& stripe = cloud.stripes[cloud.origins[last].stripe];
   const bool more = beyond >= stripe.first && beyond < stripe.first + stripe.count;
   const bool joined = more && cloud.origins[beyond].segment == cloud.origins[last].segment;
-  if (joined && std::abs(plate.plane.signed_distance(cloud.points[beyond])) <= search.tolerance)
+  if (joined && std::abs(plate.plane.signed_distance(cloud.points[beyond])) <= scales.tolerance)
     return std::nullopt;  // the plate goes on
   // Through the seam to the other plate.
   if (joined &&
@@ -117,31 +118,31 @@ std::optional<EdgePlace> edge_place(const ScanCloud& cloud, const std::vector<in
   const double slant = std::abs(direction.dot(line.direction));
   if (slant < kLeastSlant) return std::nullopt;
   const double outward = side == SeamSide::kEnd ? 1 : -1;
-  EdgePlace place;
+  EdgeCrossing place;
   if (cloud.origins[last].segment_end) {
     // Known to a centre.
     const auto point = on_plate(cloud, plate, last);
     if (!point) return std::nullopt;
     const int inner = at_back ? run[run.size() - 2] : run[1];
     place.pixel = pixel_along(cloud, last, inner, line, stripes.away);
-    place.along = line.along(*point) + outward * search.shortening_px * place.pixel;
+    place.along = line.along(*point) + outward * settings.edge_shortening_px * place.pixel;
     place.away = stripes.away.dot(*point - line.point);
     const double end = kEndDeviation + kFlatDeviation * std::max(0.0, kFlatCrossing - slant);
-    place.deviation = std::hypot(end * place.pixel, kBeam * search.noise);
+    place.deviation = std::hypot(end * place.pixel, kBeam * scales.noise);
     place.sharp = true;
   } else {
     // A segment that runs on turns at the plate's edge into the cut, if the cut is in sight; else
     // the plate ends between two of the points that are left.
     const double step = thinned_step(cloud, run);
-    const auto cut = cut_beyond(cloud, plate, line, last, at_back, search);
+    const auto cut = cut_beyond(cloud, plate, line, last, at_back, scales);
     const Eigen::Vector3d point = cloud.points[last] + 0.5 * step * direction;
     place.along = cut ? *cut : line.along(point);
     place.away = stripes.away.dot(point - line.point);
     place.deviation =
-        cut ? std::hypot(kCutNoise, kBeam * search.noise) : slant * step / std::sqrt(12.0);
+        cut ? std::hypot(kCutNoise, kBeam * scales.noise) : slant * step / std::sqrt(12.0);
     place.sharp = cut.has_value();
   }
-  place.occluded = more && plate.plane.signed_distance(cloud.points[beyond]) > 2 * search.tolerance;
+  place.occluded = more && plate.plane.signed_distance(cloud.points[beyond]) > 2 * scales.tolerance;
   return place;
 }
 

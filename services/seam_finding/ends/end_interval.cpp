@@ -17,8 +17,8 @@ constexpr double kMostSlant = 0.5;  // of that for each mm before it
 
 }  // namespace
 
-EndBracket bracket_of(const Stations& stations, int plate, double end, double outward) {
-  EndBracket bracket{end, end, false};
+EndInterval interval_of(const Stations& stations, int plate, double end, double outward) {
+  EndInterval interval{end, end, false};
   double inner = -1e9, outer = 1e9;
   bool shown = false;
   for (const Station& station : stations.list) {
@@ -30,42 +30,42 @@ EndBracket bracket_of(const Stations& stations, int plate, double end, double ou
       shown = station.nearest[plate] <= stations.near[plate];
     }
   }
-  if (inner > -1e8) bracket.inner = end + outward * inner;
-  if (outer < 1e8) bracket.outer = end + outward * outer;
-  bracket.runs_on = shown;
-  return bracket;
+  if (inner > -1e8) interval.inner = end + outward * inner;
+  if (outer < 1e8) interval.outer = end + outward * outer;
+  interval.runs_on = shown;
+  return interval;
 }
 
 double unsure_of(const Stations& stations, int plate) {
   return kMargin + kMostSlant * stations.near[plate];
 }
 
-void narrow(EndBracket& bracket, const PlateExtent& extent, double unsure, double margin,
+void narrow(EndInterval& interval, const PlateExtent& extent, double unsure, double margin,
             double outward) {
   const double inner = std::isfinite(extent.on)
-                           ? std::max(extent.on, outward * bracket.inner - unsure)
-                           : outward * bracket.inner;
-  double outer = outward * bracket.outer + margin;
+                           ? std::max(extent.on, outward * interval.inner - unsure)
+                           : outward * interval.inner;
+  double outer = outward * interval.outer + margin;
   if (extent.on > outer) {
     outer = extent.past;
-    bracket.runs_on = false;
+    interval.runs_on = false;
   }
-  bracket.seen_past = extent.past <= outer;
+  interval.seen_past = extent.past <= outer;
   outer = std::min(outer, extent.past);
   if (!std::isfinite(outer))
-    bracket.runs_on = true;
+    interval.runs_on = true;
   else if (inner < outer)
-    bracket.inner = outward * inner, bracket.outer = outward * outer;
+    interval.inner = outward * inner, interval.outer = outward * outer;
 }
 
-void limit_by_bracket(SeamEnd& end, const EndBracket& bracket, double outward) {
-  const double inner = outward * bracket.inner, outer = outward * bracket.outer;
+void limit_by_interval(SeamEnd& end, const EndInterval& interval, double outward) {
+  const double inner = outward * interval.inner, outer = outward * interval.outer;
   const double edge = outward * end.along;
   if (edge <= inner || !(outer > inner)) return;
   const double high = std::min(edge, outer), per_mm = (1 - kFlush) / kOffsets;
   // A stripe beside the plate lights some of it where it lies nearer than that; of one that is seen
   // past it the half may be hidden.
-  const double beside = bracket.seen_past
+  const double beside = interval.seen_past
                             ? (outer - edge) / std::sqrt(end.variance + kLight * kLight)
                             : (outer - kLight - edge) / std::sqrt(end.variance);
   const double flush = kFlush * 0.5 * std::erfc(-beside / std::sqrt(2.0));
@@ -83,13 +83,13 @@ void limit_by_bracket(SeamEnd& end, const EndBracket& bracket, double outward) {
   end.along = outward * mean;
 }
 
-void between_brackets(SeamEnd& end, const std::array<EndBracket, 2>& brackets, double outward) {
+void between_intervals(SeamEnd& end, const std::array<EndInterval, 2>& intervals, double outward) {
   constexpr double kFar = std::numeric_limits<double>::infinity();
   double inner = kFar, outer = kFar;
-  for (const EndBracket& bracket : brackets) {
-    if (bracket.runs_on) continue;
-    inner = std::min(inner, outward * bracket.inner);
-    outer = std::min(outer, outward * bracket.outer);
+  for (const EndInterval& interval : intervals) {
+    if (interval.runs_on) continue;
+    inner = std::min(inner, outward * interval.inner);
+    outer = std::min(outer, outward * interval.outer);
   }
   if (!std::isfinite(outer) || outer < inner) return;
   end.along = outward * (inner + outer) / 2;

@@ -6,7 +6,7 @@
 #include <utility>
 #include <vector>
 
-#include "services/seam_finding/ends/edge_crossing.hpp"
+#include "services/seam_finding/coverage/parallel_stations.hpp"
 #include "services/seam_finding/ends/plate_end.hpp"
 #include "services/seam_finding/visibility/plate_extent.hpp"
 
@@ -116,14 +116,12 @@ void first_of(const PlateEnd& a, const PlateEnd& b, double& mean, double& varian
   variance = std::max(squares - sum * sum, 0.0);
 }
 
-}  // namespace
-
-SeamEnd find_flat_end(const ScanCloud& cloud, const Joint& joint,
-                      const std::array<Stations, 2>& stations, SeamSide side,
-                      const EndSearch& search) {
+SeamEnd find_parallel_end(const ScanCloud& cloud, const Joint& joint,
+                          const std::array<Stations, 2>& stations, SeamSide side,
+                          const Scales& scales, const SeamFindingSettings& settings) {
   const bool begin = side == SeamSide::kBegin;
   const double outward = begin ? -1 : 1;
-  const Course& course = joint.course;
+  const Coverage& course = joint.coverage;
   SeamEnd end;
   end.along = begin ? course.begin : course.end;
   end.visibility = EndVisibility::kOutside;
@@ -134,7 +132,7 @@ SeamEnd find_flat_end(const ScanCloud& cloud, const Joint& joint,
   for (int j = 0; j < 2; ++j) {
     const auto enclosed = enclose(stations[j], j, (course.begin + course.end) / 2, outward);
     if (!enclosed) continue;  // runs on beyond the scan
-    const Line& border = joint.flat->borders[j];
+    const Line& border = joint.parallel->edges[j];
     // A stripe that leaves the plate shortly before it reaches the border seems to show it there,
     // and one that lies on it shortly beside the border is too short to show it.
     const double slant = slant_of(cloud, joint.plates[j], border, outward);
@@ -143,15 +141,10 @@ SeamEnd find_flat_end(const ScanCloud& cloud, const Joint& joint,
                        false};
     const double from = border.along(joint.line.at(outward * plate_end.low)) - outward * kMargin,
                  to = border.along(joint.line.at(outward * plate_end.high)) + outward * kMargin;
-    EdgeSearch edge_search;
-    edge_search.from = std::min(from, to), edge_search.to = std::max(from, to);
-    edge_search.tolerance = search.tolerance;
-    edge_search.noise = search.noise;
-    edge_search.shortening_px = search.shortening_px;
-    edge_search.slope = search.slope;
-    const PlateStripes stripes = plate_stripes(cloud, joint.plates[j], joint.plates[1 - j], border,
-                                               search.tolerance, search.noise);
-    auto edge = find_edge(cloud, stripes, side, edge_search);
+    const EdgeWindow window{std::min(from, to), std::max(from, to)};
+    const PlateStripes stripes =
+        plate_stripes(cloud, joint.plates[j], joint.plates[1 - j], border, scales);
+    auto edge = find_edge(cloud, stripes, side, window, scales, settings);
     if (edge) {
       edge->along = joint.line.along(border.at(edge->along));
       edge->variance = kEdgeFactor * edge->variance + kEdgeFloor * kEdgeFloor;
@@ -163,7 +156,7 @@ SeamEnd find_flat_end(const ScanCloud& cloud, const Joint& joint,
         return outward * joint.line.along(border.at(outward * place));
       };
       const PlateExtent extent =
-          plate_extent(cloud, stripes, side, border.along(joint.line.at(end.along)), search);
+          plate_extent(cloud, stripes, side, border.along(joint.line.at(end.along)), scales);
       // A stripe may miss the plate beside the border and show it farther off.
       if (std::isfinite(extent.on) && on_seam(extent.on) > plate_end.high) {
         const double next = first_without(stations[j], j, on_seam(extent.on), outward);
@@ -193,6 +186,16 @@ SeamEnd find_flat_end(const ScanCloud& cloud, const Joint& joint,
     return plate_end.by_edge || plate_end.low > place;
   });
   return end;
+}
+
+}  // namespace
+
+std::array<SeamEnd, 2> find_parallel_ends(const ScanCloud& cloud, const Joint& joint,
+                                          const Scales& scales,
+                                          const SeamFindingSettings& settings) {
+  const auto stations = stations_by_edge(cloud, joint, scales);
+  return {find_parallel_end(cloud, joint, stations, SeamSide::kBegin, scales, settings),
+          find_parallel_end(cloud, joint, stations, SeamSide::kEnd, scales, settings)};
 }
 
 }  // namespace arcstart::seam_finding

@@ -11,7 +11,7 @@
 namespace arcstart::seam_finding {
 namespace {
 
-using Places = std::vector<EdgePlace>;
+using Places = std::vector<EdgeCrossing>;
 
 constexpr double kMostSlope = 0.01;  // of one edge, where its places tell it; mm along per mm away
 constexpr double kAgree = 0.35;      // places on one edge, along the seam; mm
@@ -32,7 +32,7 @@ constexpr double kFarEdge = 3;  // a stripe that ends so near the plate's far ed
 // each other (13), over the root of 2 pi; mm.
 constexpr double kFlushOdds = 2.3;
 
-double variance_of(const EdgePlace& place, double noise) {
+double variance_of(const EdgeCrossing& place, double noise) {
   return noise * noise + place.deviation * place.deviation;
 }
 
@@ -40,14 +40,14 @@ double variance_of(const EdgePlace& place, double noise) {
 struct EdgeFit {
   double at_seam = 0, slope = 0, variance = 0;
 };
-double off_edge(const EdgePlace& place, const EdgeFit& fit) {
+double off_edge(const EdgeCrossing& place, const EdgeFit& fit) {
   return std::abs(place.along - fit.at_seam - fit.slope * place.away);
 }
 
 // By weighted least squares, the slope held near zero: its standard deviation.
 EdgeFit fit_edge(const Places& places, double noise, double slope) {
   double w = 0, r = 0, t = 0, rr = 0, rt = 0;
-  for (const EdgePlace& place : places) {
+  for (const EdgeCrossing& place : places) {
     const double weight = 1 / variance_of(place, noise);
     w += weight, r += weight * place.away, t += weight * place.along;
     rr += weight * place.away * place.away, rt += weight * place.away * place.along;
@@ -67,48 +67,49 @@ template <class Value>
 double middle_of(const Places& places, Value value) {
   std::vector<double> values;
   values.reserve(places.size());
-  for (const EdgePlace& place : places) values.push_back(value(place));
+  for (const EdgeCrossing& place : places) values.push_back(value(place));
   return median(std::move(values));
 }
 
 // Standard deviations: of the places about an edge, and what is known of them one by one.
 double spread_about(const Places& places, const EdgeFit& fit) {
   return kNormalMedian *
-         middle_of(places, [&fit](const EdgePlace& place) { return off_edge(place, fit); });
+         middle_of(places, [&fit](const EdgeCrossing& place) { return off_edge(place, fit); });
 }
 double known_to(const Places& places) {
-  return middle_of(places, [](const EdgePlace& place) { return place.deviation; });
+  return middle_of(places, [](const EdgeCrossing& place) { return place.deviation; });
 }
 
 // Square to the seam through the middle place, so that one that is off draws no edge to it; at the
 // middle slope of all their pairs (Theil and Sen) where enough of them tell that one plainly.
 EdgeFit through_the_middle(const Places& places) {
-  const EdgeFit square{middle_of(places, [](const EdgePlace& place) { return place.along; }), 0, 0};
+  const EdgeFit square{middle_of(places, [](const EdgeCrossing& place) { return place.along; }), 0,
+                       0};
   const double spread = spread_about(places, square);
   if (places.size() < kTellSlope || spread < kPlainly * std::hypot(known_to(places), kLeastNoise))
     return square;
   std::vector<double> slopes;
-  for (const EdgePlace& a : places)
-    for (const EdgePlace& b : places)
+  for (const EdgeCrossing& a : places)
+    for (const EdgeCrossing& b : places)
       if (b.away - a.away > kApart) slopes.push_back((b.along - a.along) / (b.away - a.away));
   if (slopes.size() < places.size()) return square;
   EdgeFit askew{0, median(std::move(slopes)), 0};
   askew.at_seam = middle_of(
-      places, [&](const EdgePlace& place) { return place.along - askew.slope * place.away; });
+      places, [&](const EdgeCrossing& place) { return place.along - askew.slope * place.away; });
   return kPlainly * spread_about(places, askew) < spread ? askew : square;
 }
 
 // Places of one edge; several that are sharp tell a plate's edge also where it was not expected.
-Places largest_agreement(const Places& places, const EdgeSearch& search) {
-  const double most_slope = std::max(kMostSlope, search.slope);
+Places largest_agreement(const Places& places, const EdgeWindow& window, double edge_slope) {
+  const double most_slope = std::max(kMostSlope, edge_slope);
   Places best;
   double most = 0;
-  for (const EdgePlace& one : places) {
-    if (one.along < search.from - search.beyond || one.along > search.to + search.beyond) continue;
+  for (const EdgeCrossing& one : places) {
+    if (one.along < window.from - window.beyond || one.along > window.to + window.beyond) continue;
     Places together;
     double weight = 0;
     int sharp = 0;
-    for (const EdgePlace& other : places) {
+    for (const EdgeCrossing& other : places) {
       const double allowed = kAgree + 2 * std::hypot(most_slope * (one.away - other.away),
                                                      one.deviation, other.deviation);
       if (std::abs(one.along - other.along) > allowed) continue;
@@ -116,7 +117,7 @@ Places largest_agreement(const Places& places, const EdgeSearch& search) {
       weight += kAgree / (kAgree + other.deviation);
       sharp += other.sharp;
     }
-    const bool expected = one.along >= search.from && one.along <= search.to;
+    const bool expected = one.along >= window.from && one.along <= window.to;
     if ((expected || sharp >= kSharpBeyond) && weight > most)
       most = weight, best = std::move(together);
   }
@@ -126,19 +127,20 @@ Places largest_agreement(const Places& places, const EdgeSearch& search) {
 }  // namespace
 
 std::optional<PlateEdge> find_edge(const ScanCloud& cloud, const PlateStripes& stripes,
-                                   SeamSide side, const EdgeSearch& search) {
+                                   SeamSide side, const EdgeWindow& window, const Scales& scales,
+                                   const SeamFindingSettings& settings) {
   Places places;
   // What lies farther from the seam is the plate's other edge, along the seam.
   const double far = stripes.reach - kFarEdge;
   for (const auto& run : stripes.runs)
-    if (const auto place = edge_place(cloud, run, stripes, side, search))
+    if (const auto place = edge_crossing(cloud, run, stripes, side, scales, settings))
       if (place->away < far && (place->sharp || place->away > kNearSeam)) places.push_back(*place);
-  Places on_edge = largest_agreement(places, search);
+  Places on_edge = largest_agreement(places, window, settings.edge_slope());
   // What is seen of the plate before something else tells no more than that it reaches so far.
-  const auto clear = [](const EdgePlace& place) { return place.sharp && !place.occluded; };
+  const auto clear = [](const EdgeCrossing& place) { return place.sharp && !place.occluded; };
   if (2 * std::count_if(on_edge.begin(), on_edge.end(), clear) >=
       static_cast<std::ptrdiff_t>(on_edge.size()))
-    std::erase_if(on_edge, [](const EdgePlace& place) { return place.occluded; });
+    std::erase_if(on_edge, [](const EdgeCrossing& place) { return place.occluded; });
   // A lone stripe that ends beside the seam, or cannot be seen to, ends for another reason.
   if (on_edge.size() == 1 && (on_edge[0].away <= kNearSeam || !on_edge[0].sharp))
     return std::nullopt;
@@ -146,14 +148,15 @@ std::optional<PlateEdge> find_edge(const ScanCloud& cloud, const PlateStripes& s
   if (on_edge.empty()) return std::nullopt;
 
   EdgeFit fit = through_the_middle(on_edge);
-  const double slope = fit.slope == 0 ? search.slope : std::max(kMostSlope, search.slope);
+  const double slope =
+      fit.slope == 0 ? settings.edge_slope() : std::max(kMostSlope, settings.edge_slope());
   for (int pass = 0; pass < 3; ++pass) {
     const double spread = spread_about(on_edge, fit), known = known_to(on_edge);
     const auto count = static_cast<double>(on_edge.size());
     const double noise = std::sqrt((kPriorPlaces * kLeastNoise * kLeastNoise +
                                     count * std::max(0.0, spread * spread - known * known)) /
                                    (kPriorPlaces + count - 1));
-    std::erase_if(on_edge, [&](const EdgePlace& place) {
+    std::erase_if(on_edge, [&](const EdgeCrossing& place) {
       return off_edge(place, fit) > kOutlier * std::sqrt(variance_of(place, noise));
     });
     if (on_edge.empty()) return std::nullopt;
@@ -161,23 +164,24 @@ std::optional<PlateEdge> find_edge(const ScanCloud& cloud, const PlateStripes& s
   }
   PlateEdge edge;
   edge.along = fit.at_seam;
-  const auto mean = [&on_edge](double EdgePlace::*value) {
+  const auto mean = [&on_edge](double EdgeCrossing::*value) {
     double sum = 0;
-    for (const EdgePlace& place : on_edge) sum += place.*value;
+    for (const EdgeCrossing& place : on_edge) sum += place.*value;
     return sum / static_cast<double>(on_edge.size());
   };
-  edge.away = mean(&EdgePlace::away);
-  edge.pixel = mean(&EdgePlace::pixel);
+  edge.away = mean(&EdgeCrossing::away);
+  edge.pixel = mean(&EdgeCrossing::pixel);
   edge.variance = fit.variance + kFloor * kFloor + std::pow(kCommonDeviation * edge.pixel, 2);
   edge.stripes = static_cast<int>(on_edge.size());
-  const auto occluded =
-      std::count_if(on_edge.begin(), on_edge.end(), [](const EdgePlace& p) { return p.occluded; });
+  const auto occluded = std::count_if(on_edge.begin(), on_edge.end(),
+                                      [](const EdgeCrossing& p) { return p.occluded; });
   edge.occluded = 2 * occluded > edge.stripes;
   if (std::count_if(on_edge.begin(), on_edge.end(), clear) > 1)
-    edge.clear_to =
-        std::max_element(on_edge.begin(), on_edge.end(),
-                         [](const EdgePlace& a, const EdgePlace& b) { return a.away < b.away; })
-            ->away;
+    edge.clear_to = std::max_element(on_edge.begin(), on_edge.end(),
+                                     [](const EdgeCrossing& a, const EdgeCrossing& b) {
+                                       return a.away < b.away;
+                                     })
+                        ->away;
   return edge;
 }
 

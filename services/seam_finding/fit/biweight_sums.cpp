@@ -14,7 +14,7 @@ struct Task {
   PlacedHeights points;
   float offset, along, across;  // of the plane
   float share;                  // one over the limit; 1/mm
-  TukeySums& sums;
+  BiweightSums& sums;
 };
 
 template <int kFloats>
@@ -25,7 +25,7 @@ struct FloatRegister {
 template <int kFloats>
 ARCSTART_INLINE_BODY void add_up_body(const Task& task) {
   using Floats = typename FloatRegister<kFloats>::Floats;
-  TukeySums& sums = task.sums;
+  BiweightSums& sums = task.sums;
   for (std::size_t first = 0; first < task.points.count; first += kBlock) {
     Floats w{}, a{}, b{}, aa{}, ab{}, bb{}, r{}, ra{}, rb{};
     const std::size_t last = std::min(first + kBlock, task.points.count);
@@ -56,9 +56,9 @@ ARCSTART_FOR_EACH_INSTRUCTION_SET(add_up, (const Task& task), (task))
 
 }  // namespace
 
-TukeySums tukey_sums(const PlacedHeights& points, double offset, double along, double across,
-                     double limit) {
-  TukeySums sums;
+BiweightSums biweight_sums(const PlacedHeights& points, double offset, double along, double across,
+                           double limit) {
+  BiweightSums sums;
   add_up({points, static_cast<float>(offset), static_cast<float>(along), static_cast<float>(across),
           static_cast<float>(1 / limit), sums});
   return sums;

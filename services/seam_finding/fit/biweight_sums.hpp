@@ -14,13 +14,13 @@ struct PlacedHeights {
 constexpr std::size_t whole_registers(std::size_t points) { return (points + 15) / 16 * 16; }
 
 // Over the points, each with Tukey's weight w; r: its distance in h from the plane.
-struct TukeySums {
+struct BiweightSums {
   double w = 0, a = 0, b = 0, aa = 0, ab = 0, bb = 0, r = 0, ra = 0, rb = 0;
 };
 
 // About the plane h = offset + along * a + across * b. A point farther from it than the limit, mm,
 // does not count. In floats: good to a millionth.
-TukeySums tukey_sums(const PlacedHeights& points, double offset, double along, double across,
-                     double limit);
+BiweightSums biweight_sums(const PlacedHeights& points, double offset, double along, double across,
+                           double limit);
 
 }  // namespace arcstart::seam_finding

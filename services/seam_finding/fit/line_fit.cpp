@@ -14,10 +14,10 @@ constexpr int kLeastPlaces = 4;
 
 }  // namespace
 
-std::optional<BorderFit> fit_border(const std::vector<BorderPlace>& places, double lean_deviation) {
+std::optional<LineFit> fit_line(const std::vector<LinePlace>& places, double lean_deviation) {
   if (static_cast<int>(places.size()) < kLeastPlaces) return std::nullopt;
-  BorderFit fit;
-  for (const BorderPlace& place : places)
+  LineFit fit;
+  for (const LinePlace& place : places)
     fit.middle += place.along / static_cast<double>(places.size());
   std::vector<double> weights(places.size(), 1);
   double scale = 1;  // of the residuals over their deviations, standard
@@ -38,7 +38,7 @@ std::optional<BorderFit> fit_border(const std::vector<BorderPlace>& places, doub
     fit.at_middle = solution[0], fit.slope = solution[1], fit.lean = solution[2];
 
     std::vector<double> residuals;
-    for (const BorderPlace& place : places)
+    for (const LinePlace& place : places)
       residuals.push_back((place.across - fit.across_at(place.along) - fit.lean * place.height) /
                           place.deviation);
     std::vector<double> sizes = residuals;

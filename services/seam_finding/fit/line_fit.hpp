@@ -8,13 +8,13 @@ namespace arcstart::seam_finding {
 
 // In the plate's frame: where along and across the border was seen, and how far above the level at
 // which it is wanted; mm. Points on a cut lie at any height, places where a stripe ends at 0.
-struct BorderPlace {
+struct LinePlace {
   double along = 0, across = 0, height = 0;
   double deviation = 0.1;  // of across, standard; mm
 };
 
 // across = at_middle + slope (along - middle) + lean * height.
-struct BorderFit {
+struct LineFit {
   double middle = 0;  // mean place along; mm
   double at_middle = 0, slope = 0, lean = 0;
   double variance = 0, slope_variance = 0;  // of at_middle and slope
@@ -28,6 +28,6 @@ struct BorderFit {
 
 // Weighted least squares in which places far off count less and at last nothing (Tukey). The lean
 // is held about 0 with the given standard deviation. Nothing where fewer than four places agree.
-std::optional<BorderFit> fit_border(const std::vector<BorderPlace>& places, double lean_deviation);
+std::optional<LineFit> fit_line(const std::vector<LinePlace>& places, double lean_deviation);
 
 }  // namespace arcstart::seam_finding

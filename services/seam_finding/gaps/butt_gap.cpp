@@ -36,7 +36,7 @@ double rounded_sawtooth(double x, double width, double rounding, double steepnes
 
 class Fit {
  public:
-  Fit(const std::vector<SeenPlace>& places, const NarrowGapSearch& search)
+  Fit(const std::vector<SeenPlace>& places, const ButtGapSearch& search)
       : search_(search), steepness_(1 / std::abs(search.sight)) {
     const std::size_t step = 1 + places.size() / kMostPlaces;
     for (std::size_t i = 0; i < places.size(); i += step) places_.push_back(places[i]);
@@ -138,7 +138,7 @@ class Fit {
     return {normal, right};
   }
 
-  NarrowGapSearch search_;
+  ButtGapSearch search_;
   double steepness_;
   std::vector<SeenPlace> places_;
   double scale_ = 0, seen_ = 0;  // mm
@@ -146,8 +146,8 @@ class Fit {
 
 }  // namespace
 
-std::optional<std::array<BorderFit, 2>> fit_narrow_gap(const std::vector<SeenPlace>& places,
-                                                       const NarrowGapSearch& search) {
+std::optional<std::array<LineFit, 2>> fit_butt_gap(const std::vector<SeenPlace>& places,
+                                                   const ButtGapSearch& search) {
   const Fit fit(places, search);
   if (!fit.shows_a_gap()) return std::nullopt;
   Parameters best = Parameters::Zero();
@@ -163,10 +163,10 @@ std::optional<std::array<BorderFit, 2>> fit_narrow_gap(const std::vector<SeenPla
   const Eigen::Matrix4d covariance = fit.covariance(best);
   // In terms of the farther edge and the width; the nearer edge is their difference.
   const bool farther_last = search.sight > 0;
-  std::array<BorderFit, 2> borders;
+  std::array<LineFit, 2> borders;
   for (const bool farther : {false, true}) {
     const Eigen::Vector4d row(1, 0, farther ? 0 : -1, 0);
-    BorderFit& border = borders[farther == farther_last];
+    LineFit& border = borders[farther == farther_last];
     const double x = best[0] - (farther ? 0 : best[2]);
     border.middle = search.middle;
     border.at_middle = search.across + (farther_last ? x : -x);

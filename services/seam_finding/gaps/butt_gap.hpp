@@ -16,7 +16,7 @@ struct SeenPlace {
   double height = 0;             // over it
 };
 
-struct NarrowGapSearch {
+struct ButtGapSearch {
   double across = 0, middle = 0,
          slope = 0;  // of the joint about: across = .. + slope (along - middle)
   // Of the line of sight in a section across the joint: mm across for each mm down. Not 0.
@@ -29,7 +29,7 @@ struct NarrowGapSearch {
 // the nearer plate's edge: a sawtooth, which the stripe's smoothing rounds. Its place, width and
 // rounding are fitted to the heights by robust least squares. Returns the plates' borders, the one
 // at smaller `across` first; nothing where the heights do not show such a gap.
-std::optional<std::array<BorderFit, 2>> fit_narrow_gap(const std::vector<SeenPlace>& places,
-                                                       const NarrowGapSearch& search);
+std::optional<std::array<LineFit, 2>> fit_butt_gap(const std::vector<SeenPlace>& places,
+                                                   const ButtGapSearch& search);
 
 }  // namespace arcstart::seam_finding

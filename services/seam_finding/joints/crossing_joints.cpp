@@ -1,17 +1,15 @@
 #include "services/seam_finding/joints/crossing_joints.hpp"
 
-#include <fmt/format.h>
-
 #include <algorithm>
 #include <cmath>
 #include <optional>
 
+#include "common/geometry.hpp"
 #include "services/seam_finding/coverage/coverage.hpp"
 
 namespace arcstart::seam_finding {
 namespace {
 
-constexpr double kDegree = M_PI / 180;
 constexpr double kBeside = 25;     // a joint is judged by what lies so near the line; mm
 constexpr double kFullReach = 10;  // a plate that reaches so far from the seam counts in full; mm
 // Outside a corner a plate reaches so far, else it is the cut of the other; mm.
@@ -20,7 +18,10 @@ constexpr double kLeastConcave = 0.8;
 constexpr double kInUnder =
     3.5;  // a plate is seen so far in under the other through a root gap; mm
 constexpr double kLeastExplained = 0.5;
-constexpr double kNoComponent = 0.05;  // of a unit direction that only noise gives a sign
+constexpr double kNoComponent = 0.05;       // of a unit direction that only noise gives a sign
+constexpr double kNearMiss = 10 * kDegree;  // beyond the tolerance of Eq. 6
+constexpr double kShortestSeam = 10;        // mm: less of it seen on both plates is no seam
+constexpr double kShortestLoose = 20;       // in a cloud without stripes; mm
 constexpr double kSamePlane = 2 * kDegree;
 constexpr double kSameDirection = 3 * kDegree;
 constexpr double kAssumedViewSlant = 20 * kDegree;  // between an assumed viewpoint and a face
@@ -33,8 +34,8 @@ bool touches(const ScanCloud& cloud, const std::vector<int>& points, const Line&
 }
 
 // A face with points far apart is at the seam though none comes very near it.
-double contact_of(const Face& face, const JointSearch& search) {
-  return std::max(search.contact, 2 * face.spacing);
+double contact_of(const Face& face, const Scales& scales) {
+  return std::max(scales.contact, 2 * face.spacing);
 }
 
 Eigen::Vector3d middle(const ScanCloud& cloud, const std::vector<int>& points) {
@@ -45,20 +46,20 @@ Eigen::Vector3d middle(const ScanCloud& cloud, const std::vector<int>& points) {
 
 // A plate may show as several faces in one plane, parted by a shadow or by lost stripes.
 std::vector<int> with_pieces_of_the_plane(const ScanCloud& cloud, const std::vector<Face>& faces,
-                                          int face, const Line& line, const JointSearch& search) {
+                                          int face, const Line& line, const Scales& scales) {
   std::vector<int> points = faces[face].points;
   for (int k = 0; k < static_cast<int>(faces.size()); ++k) {
     if (k == face || faces[k].plane.normal.dot(faces[face].plane.normal) < std::cos(kSamePlane))
       continue;
     if (std::abs(faces[face].plane.signed_distance(middle(cloud, faces[k].points))) >
-        2 * search.tolerance)
+        2 * scales.tolerance)
       continue;
-    if (!touches(cloud, faces[k].points, line, contact_of(faces[k], search))) continue;
+    if (!touches(cloud, faces[k].points, line, contact_of(faces[k], scales))) continue;
     const auto own = static_cast<std::ptrdiff_t>(points.size());
     points.insert(points.end(), faces[k].points.begin(), faces[k].points.end());
     std::inplace_merge(points.begin(), points.begin() + own, points.end());
   }
-  return without_scraps(cloud, points);
+  return without_fragments(cloud, points);
 }
 
 // Of a plate's points beside the seam: the share on the right side of the other plate, and how far
@@ -82,7 +83,7 @@ Beside look_beside(const ScanCloud& cloud, const Joint& joint, int plate, double
   for (const int i : joint.plates[plate].points) {
     const Eigen::Vector3d& point = cloud.points[i];
     const double t = joint.line.along(point), r = joint.line.distance(point);
-    if (t < joint.course.begin || t > joint.course.end) continue;
+    if (t < joint.coverage.begin || t > joint.coverage.end) continue;
     all.push_back(r);
     if (r > kBeside) continue;
     distances.push_back(r);
@@ -106,7 +107,7 @@ double explained_share(const ScanCloud& cloud, const std::vector<int>& left, con
   for (const int i : left) {
     const Eigen::Vector3d& point = cloud.points[i];
     const double t = joint.line.along(point);
-    if (t < joint.course.begin || t > joint.course.end || joint.line.distance(point) > kBeside)
+    if (t < joint.coverage.begin || t > joint.coverage.end || joint.line.distance(point) > kBeside)
       continue;
     ++all;
     explained += std::abs(joint.plates[0].plane.signed_distance(point)) <= tolerance ||
@@ -115,36 +116,42 @@ double explained_share(const ScanCloud& cloud, const std::vector<int>& left, con
   return all > 0 ? static_cast<double>(explained) / all : 0;
 }
 
-void judge(const ScanCloud& cloud, const std::vector<int>& left, Joint& joint,
-           const JointSearch& search) {
-  joint.course = find_course(cloud, joint.plates, joint.line, search.course);
-  const Course& course = joint.course;
+// Why the plates are no joint, none where they may be one.
+Reason flaw_of(const ScanCloud& cloud, const Joint& joint, double narrower_plate, double off,
+               const Scales& scales, const SeamFindingSettings& settings) {
+  using Code = Reason::Code;
+  const bool outside = joint.type == JointType::kOutsideCorner;
+  const double length_min = cloud.organised()
+                                ? kShortestSeam
+                                : std::max(kShortestLoose, settings.stripes_min * scales.spacing);
+  if (std::abs(off) > 1) return {Code::kAngle, plates_angle(joint)};
+  if (joint.concavity < kLeastConcave) return {outside ? Code::kNotConvex : Code::kNotConcave};
+  if (outside && narrower_plate < kLeastOutside) return {Code::kEdgeOfOnePlate};
+  if (joint.explained < kLeastExplained) return {Code::kTooMuchElse};
+  if (cloud.organised() && joint.coverage.stripes < settings.stripes_min)
+    return {Code::kFewStripesCross, static_cast<double>(joint.coverage.stripes)};
+  if (joint.coverage.covered < length_min) return {Code::kShortlySeen, joint.coverage.covered};
+  return {};
+}
+
+void judge(const ScanCloud& cloud, const std::vector<int>& left, Joint& joint, const Scales& scales,
+           const SeamFindingSettings& settings) {
+  joint.coverage = find_coverage(cloud, joint.plates, joint.line, scales);
+  const Coverage& course = joint.coverage;
   if (course.stripes == 0) {
-    joint.flaw = "the plates do not touch";
+    joint.flaw = {Reason::Code::kPlatesDoNotTouch};
     return;
   }
-  const Beside first = look_beside(cloud, joint, 0, search.tolerance);
-  const Beside second = look_beside(cloud, joint, 1, search.tolerance);
+  const Beside first = look_beside(cloud, joint, 0, scales.tolerance);
+  const Beside second = look_beside(cloud, joint, 1, scales.tolerance);
   joint.concavity = std::min(first.before, second.before);
-  joint.explained = explained_share(cloud, left, joint, search.tolerance);
-  const bool outside = joint.type == JointType::kOutsideCorner;
-  const double angle = plates_angle(joint);
-  const double off = (angle - search.angle) / search.angle_tolerance;
+  joint.explained = explained_share(cloud, left, joint, scales.tolerance);
+  const WantedAngle wanted = wanted_angle(joint.type, settings);
+  const double off = (plates_angle(joint) - wanted.angle) / wanted.tolerance;
   joint.score = course.covered * joint.explained * joint.explained * joint.concavity *
                 joint.concavity * std::min(1.0, first.reach / kFullReach) *
                 std::min(1.0, second.reach / kFullReach) * std::max(0.0, 1 - off * off / 2);
-  if (std::abs(off) > 1)
-    joint.flaw = fmt::format("its angle is {:.1f} deg", angle / kDegree);
-  else if (joint.concavity < kLeastConcave)
-    joint.flaw = outside ? "its edge is not convex" : "its edge is not concave";
-  else if (outside && std::min(first.whole, second.whole) < kLeastOutside)
-    joint.flaw = "it is the edge of one plate";
-  else if (joint.explained < kLeastExplained)
-    joint.flaw = "too much else lies around it";
-  else if (cloud.organised() && course.stripes < search.stripes_min)
-    joint.flaw = fmt::format("only {} stripes cross both plates", course.stripes);
-  else if (course.covered < search.length_min)
-    joint.flaw = fmt::format("both plates were seen on {:.0f} mm only", course.covered);
+  joint.flaw = flaw_of(cloud, joint, std::min(first.whole, second.whole), off, scales, settings);
 }
 
 // Along the search direction; without one toward increasing x, then y, then z.
@@ -159,36 +166,37 @@ Eigen::Vector3d along_search(const ScanCloud& cloud, const Eigen::Vector3d& dire
 }
 
 std::optional<Joint> pair_up(const ScanCloud& cloud, const std::vector<int>& left,
-                             const std::vector<Face>& faces, int a, int b,
-                             const std::vector<bool>& certain, const JointSearch& search) {
+                             const std::vector<Face>& faces, int a, int b, JointType type,
+                             const Scales& scales, const SeamFindingSettings& settings) {
+  const WantedAngle wanted = wanted_angle(type, settings);
   const double fold =
       std::acos(std::min(1.0, std::abs(faces[a].plane.normal.dot(faces[b].plane.normal))));
-  // Eq. 6 with the sign of the normals left open; 10 deg more, so that near misses are listed with
-  // their flaw.
+  // Eq. 6 with the sign of the normals left open; near misses are listed with their flaw.
   const double least =
-      std::min(std::abs(fold - search.angle), std::abs(M_PI - fold - search.angle));
-  if (least > search.angle_tolerance + 10 * kDegree) return std::nullopt;
+      std::min(std::abs(fold - wanted.angle), std::abs(M_PI - fold - wanted.angle));
+  if (least > wanted.tolerance + kNearMiss) return std::nullopt;
   const auto line = intersect(faces[a].plane, faces[b].plane, middle(cloud, faces[a].points));
-  if (!line || !touches(cloud, faces[a].points, *line, contact_of(faces[a], search)) ||
-      !touches(cloud, faces[b].points, *line, contact_of(faces[b], search)))
+  if (!line || !touches(cloud, faces[a].points, *line, contact_of(faces[a], scales)) ||
+      !touches(cloud, faces[b].points, *line, contact_of(faces[b], scales)))
     return std::nullopt;
   Joint joint;
-  joint.type = search.type;
+  joint.type = type;
   joint.faces = {a, b};
   joint.line = *line;
   joint.line.direction = along_search(cloud, line->direction);
   for (int j = 0; j < 2; ++j) {
     joint.plates[j].plane = faces[joint.faces[j]].plane;
-    joint.plates[j].contact = contact_of(faces[joint.faces[j]], search);
-    joint.plates[j].points = with_pieces_of_the_plane(cloud, faces, joint.faces[j], *line, search);
+    joint.plates[j].contact = contact_of(faces[joint.faces[j]], scales);
+    joint.plates[j].points = with_pieces_of_the_plane(cloud, faces, joint.faces[j], *line, scales);
   }
   const auto measure = [&](Joint& j) {
     j.angle = open_angle(j);
     if (j.type == JointType::kOutsideCorner)
       for (int k = 0; k < 2; ++k) j.plates[k].away = -j.plates[1 - k].plane.normal;
-    judge(cloud, left, j, search);
+    judge(cloud, left, j, scales, settings);
   };
-  const int doubtful = certain[a] == certain[b] ? -1 : certain[a] ? 1 : 0;
+  const bool first_known = faces[a].side_known, second_known = faces[b].side_known;
+  const int doubtful = first_known == second_known ? -1 : first_known ? 1 : 0;
   Joint turned = joint;
   measure(joint);
   if (doubtful >= 0) {
@@ -203,8 +211,7 @@ std::optional<Joint> pair_up(const ScanCloud& cloud, const std::vector<int>& lef
 
 }  // namespace
 
-std::vector<bool> turn_to_sensor(const ScanCloud& cloud, std::vector<Face>& faces) {
-  std::vector<bool> certain;
+std::vector<Face> turned_to_sensor(const ScanCloud& cloud, std::vector<Face> faces) {
   for (Face& face : faces) {
     double sum = 0;
     for (const int i : face.points)
@@ -212,19 +219,26 @@ std::vector<bool> turn_to_sensor(const ScanCloud& cloud, std::vector<Face>& face
     if (sum < 0) face.plane = face.plane.flipped();
     const double slant =
         std::asin(std::min(1.0, std::abs(sum) / static_cast<double>(face.points.size())));
-    certain.push_back(cloud.organised() ||
-                      slant > (cloud.viewpoint_known ? kGivenViewSlant : kAssumedViewSlant));
+    face.side_known =
+        cloud.organised() || slant > (cloud.viewpoint_known ? kGivenViewSlant : kAssumedViewSlant);
   }
-  return certain;
+  return faces;
 }
 
-std::vector<Joint> rank_joints(const ScanCloud& cloud, const std::vector<int>& left,
-                               const std::vector<Face>& faces, const std::vector<bool>& certain,
-                               const JointSearch& search) {
+WantedAngle wanted_angle(JointType type, const SeamFindingSettings& settings) {
+  if (type == JointType::kOutsideCorner)
+    return {settings.outside_corner_angle_deg * kDegree,
+            settings.outside_corner_tolerance_deg * kDegree};
+  return {settings.angle_deg * kDegree, settings.angle_tolerance_deg * kDegree};
+}
+
+std::vector<Joint> find_crossing_joints(const ScanCloud& cloud, const std::vector<int>& left,
+                                        const std::vector<Face>& faces, JointType type,
+                                        const Scales& scales, const SeamFindingSettings& settings) {
   std::vector<Joint> joints;
   for (int a = 0; a < static_cast<int>(faces.size()); ++a)
     for (int b = a + 1; b < static_cast<int>(faces.size()); ++b)
-      if (auto joint = pair_up(cloud, left, faces, a, b, certain, search))
+      if (auto joint = pair_up(cloud, left, faces, a, b, type, scales, settings))
         joints.push_back(std::move(*joint));
   sort_by_score(joints);
   return joints;
@@ -232,14 +246,14 @@ std::vector<Joint> rank_joints(const ScanCloud& cloud, const std::vector<int>& l
 
 void sort_by_score(std::vector<Joint>& joints) {
   std::stable_sort(joints.begin(), joints.end(), [](const Joint& a, const Joint& b) {
-    if (a.flaw.empty() != b.flaw.empty()) return a.flaw.empty();
+    if (static_cast<bool>(a.flaw) != static_cast<bool>(b.flaw)) return !a.flaw;
     return a.score > b.score;
   });
 }
 
 bool same_seam(const Joint& a, const Joint& b, double tolerance_mm) {
   return std::abs(a.line.direction.dot(b.line.direction)) > std::cos(kSameDirection) &&
-         a.line.distance(b.line.at((b.course.begin + b.course.end) / 2)) < tolerance_mm;
+         a.line.distance(b.line.at((b.coverage.begin + b.coverage.end) / 2)) < tolerance_mm;
 }
 
 }  // namespace arcstart::seam_finding

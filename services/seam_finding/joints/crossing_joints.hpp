@@ -2,41 +2,33 @@
 // a corner, convexity, and contact along the line.
 #pragma once
 
-#include <array>
-#include <cmath>
-#include <optional>
-#include <string>
 #include <vector>
 
-#include "services/seam_finding/model/coverage.hpp"
 #include "services/seam_finding/model/joint.hpp"
 #include "services/seam_finding/model/joint_type.hpp"
 #include "services/seam_finding/model/plate.hpp"
+#include "services/seam_finding/model/scales.hpp"
 #include "services/seam_finding/model/scan_cloud.hpp"
+#include "services/seam_finding/seam_finding_settings.hpp"
 
 namespace arcstart::seam_finding {
 
-struct JointSearch {
-  JointType type = JointType::kTee;  // that or a corner
-  double angle = 1.5708;             // theta of Eq. 6, between the plates; rad
-  double angle_tolerance = 0.35;     // epsilon of Eq. 6; rad
-  double contact = 6;                // a plate is at the seam where its points come so near; mm
-  double tolerance = 0.5;            // of a point's distance from its plane; mm
-  int stripes_min = 5;
-  double length_min = 15;  // of the seam where both plates were seen; mm
-  CourseSearch course;
+// theta and epsilon of Eq. 6; rad.
+struct WantedAngle {
+  double angle = 0, tolerance = 0;
 };
+WantedAngle wanted_angle(JointType type, const SeamFindingSettings& settings);
 
-// Turns the planes' normals to the side they were seen from. Returns for each whether that is
-// certain: it is not where a viewpoint that is only assumed, or is the same for all of a cloud,
-// lies nearly in the plane.
-std::vector<bool> turn_to_sensor(const ScanCloud& cloud, std::vector<Face>& faces);
+// The planes' normals on the side they were seen from, and for each face whether that side is
+// known: it is not where a viewpoint that is only assumed, or is the same for all of a cloud, lies
+// nearly in the plane.
+std::vector<Face> turned_to_sensor(const ScanCloud& cloud, std::vector<Face> faces);
 
-// All pairs whose planes meet under the angle and touch, best first; those with a flaw behind those
-// without. `left`: the points that are not background.
-std::vector<Joint> rank_joints(const ScanCloud& cloud, const std::vector<int>& left,
-                               const std::vector<Face>& faces, const std::vector<bool>& certain,
-                               const JointSearch& search);
+// All pairs whose planes meet under the angle of that type, a tee or a corner, and touch, best
+// first; those with a flaw behind those without. `left`: the points that are not background.
+std::vector<Joint> find_crossing_joints(const ScanCloud& cloud, const std::vector<int>& left,
+                                        const std::vector<Face>& faces, JointType type,
+                                        const Scales& scales, const SeamFindingSettings& settings);
 
 // Best first; those with a flaw behind those without.
 void sort_by_score(std::vector<Joint>& joints);

@@ -22,9 +22,10 @@ constexpr std::size_t kEnough = 4096;  // points of a plate; of more, means over
 constexpr double kBendWidth = 1.2;
 constexpr double kOverhang = 3;  // beyond the seam's ends; mm
 
-std::vector<int> beside(const ScanCloud& cloud, const Joint& joint, int plate, const Refit& refit) {
-  const double bend = std::max(kBendWidth, 2 * refit.tolerance);
-  const double from = joint.course.begin - kOverhang, to = joint.course.end + kOverhang;
+std::vector<int> beside(const ScanCloud& cloud, const Joint& joint, int plate, double distance,
+                        double tolerance) {
+  const double bend = std::max(kBendWidth, 2 * tolerance);
+  const double from = joint.coverage.begin - kOverhang, to = joint.coverage.end + kOverhang;
   const Plane& other = joint.plates[1 - plate].plane;
   std::vector<int> points;
   points.reserve(joint.plates[plate].points.size());
@@ -34,7 +35,7 @@ std::vector<int> beside(const ScanCloud& cloud, const Joint& joint, int plate, c
     const double t = joint.line.direction.dot(p);
     if (cloud.origins[i].segment_end || t < from || t > to ||
         std::abs(other.signed_distance(point)) < bend ||
-        p.squaredNorm() - t * t > refit.distance * refit.distance)
+        p.squaredNorm() - t * t > distance * distance)
       continue;
     points.push_back(i);
   }
@@ -110,9 +111,9 @@ Plane fitted(const ScanCloud& cloud, const Joint& joint, int plate, const std::v
 
 // False where the planes do not cross.
 bool set_planes(const ScanCloud& cloud, Joint& joint, const std::array<Plane, 2>& planes,
-                const Refit& refit, const CourseSearch& search) {
-  const auto line =
-      intersect(planes[0], planes[1], joint.line.at((joint.course.begin + joint.course.end) / 2));
+                const Scales& scales) {
+  const auto line = intersect(planes[0], planes[1],
+                              joint.line.at((joint.coverage.begin + joint.coverage.end) / 2));
   if (!line) return false;
   joint.plates[0].plane = planes[0];
   joint.plates[1].plane = planes[1];
@@ -122,28 +123,32 @@ bool set_planes(const ScanCloud& cloud, Joint& joint, const std::array<Plane, 2>
   if (cloud.organised())
     for (int j = 0; j < 2; ++j)
       joint.plates[j].points =
-          grown_along_stripes(cloud, joint.plates[j], joint.plates[1 - j], refit.tolerance);
-  joint.course = find_course(cloud, joint.plates, joint.line, search);
-  return joint.course.stripes > 0;
+          grown_along_stripes(cloud, joint.plates[j], joint.plates[1 - j], scales.tolerance);
+  joint.coverage = find_coverage(cloud, joint.plates, joint.line, scales);
+  return joint.coverage.stripes > 0;
 }
 
 }  // namespace
 
-void refit_joint(const ScanCloud& cloud, Joint& joint, const Refit& refit,
-                 const CourseSearch& search) {
+Joint refined(const ScanCloud& cloud, Joint joint, const RefinementPasses& passes,
+              const Scales& scales, const SeamFindingSettings& settings) {
   std::array<std::vector<int>, 2> outliers;
-  for (int pass = 0; pass < refit.passes; ++pass) {
+  for (int pass = 0; pass < passes.count; ++pass) {
     std::array<Plane, 2> planes;
     for (int plate = 0; plate < 2; ++plate) {
-      const auto chosen = beside(cloud, joint, plate, refit);
-      if (refit.neighbours > 0 && (pass == 0 || chosen.size() <= kSoughtAgain))
+      const auto chosen = beside(cloud, joint, plate, settings.refit_distance_mm, scales.tolerance);
+      if (passes.drop_outliers && settings.outlier_neighbours > 0 &&
+          (pass == 0 || chosen.size() <= kSoughtAgain))
         outliers[plate] =
-            difference(chosen, without_outliers(cloud, chosen, refit.neighbours, refit.deviations,
-                                                outlier_spacing(cloud, chosen, search.spacing)));
-      planes[plate] = fitted(cloud, joint, plate, difference(chosen, outliers[plate]), refit.noise);
+            difference(chosen, without_outliers(cloud, chosen, settings.outlier_neighbours,
+                                                settings.outlier_deviations,
+                                                outlier_spacing(cloud, chosen, scales.spacing)));
+      planes[plate] =
+          fitted(cloud, joint, plate, difference(chosen, outliers[plate]), scales.noise);
     }
-    if (!set_planes(cloud, joint, planes, refit, search)) return;
+    if (!set_planes(cloud, joint, planes, scales)) break;
   }
+  return joint;
 }
 
 }  // namespace arcstart::seam_finding

@@ -24,15 +24,15 @@ constexpr double kLeastNoise = 0.06;    // beside a gap the light of both plates
 constexpr double kSteepest = 0.15;      // sight into it; mm across for each mm down
 constexpr double kOneLevel = 1;         // between the tops of its plates; mm
 
-int neighbour(const Passage& passage, int plate) {
-  return plate == 0 ? passage.last : passage.first;
+int neighbour(const Transition& transition, int plate) {
+  return plate == 0 ? transition.last : transition.first;
 }
 
 // The points that follow on a plate's last one in the same segment, outward, as long as they fall.
-std::vector<int> falling(const ScanCloud& cloud, const Passage& passage, const Plane& plane,
+std::vector<int> falling(const ScanCloud& cloud, const Transition& transition, const Plane& plane,
                          int plate) {
   std::vector<int> run;
-  int before = neighbour(passage, plate);
+  int before = neighbour(transition, plate);
   double height = plane.signed_distance(cloud.points[before]);
   const auto take = [&](int i) {
     const double h = plane.signed_distance(cloud.points[i]);
@@ -43,33 +43,33 @@ std::vector<int> falling(const ScanCloud& cloud, const Passage& passage, const P
     return true;
   };
   if (plate == 0) {
-    for (auto i = passage.between.begin(); i != passage.between.end() && take(*i); ++i) {
+    for (auto i = transition.between.begin(); i != transition.between.end() && take(*i); ++i) {
     }
   } else {
-    for (auto i = passage.between.rbegin(); i != passage.between.rend() && take(*i); ++i) {
+    for (auto i = transition.between.rbegin(); i != transition.between.rend() && take(*i); ++i) {
     }
   }
   return run;
 }
 
 // What follows on a plate's last point, outward; -1 where it lies in another segment.
-int follower(const ScanCloud& cloud, const Passage& passage, int plate) {
-  const int own = neighbour(passage, plate);
-  int next = neighbour(passage, 1 - plate);
-  if (!passage.between.empty())
-    next = plate == 0 ? passage.between.front() : passage.between.back();
+int follower(const ScanCloud& cloud, const Transition& transition, int plate) {
+  const int own = neighbour(transition, plate);
+  int next = neighbour(transition, 1 - plate);
+  if (!transition.between.empty())
+    next = plate == 0 ? transition.between.front() : transition.between.back();
   const bool joined =
       cloud.organised() && cloud.origins[next].segment == cloud.origins[own].segment;
   return joined ? next : -1;
 }
 
 // Where the plate ends by its last point alone: at a segment's end, or before what follows on it.
-BorderPlace end_place(const ScanCloud& cloud, const Passage& passage, const PlateFrame& frame,
-                      int plate, int next, double pitch_mm) {
-  const int own = neighbour(passage, plate);
+LinePlace end_place(const ScanCloud& cloud, const Transition& transition, const PlateFrame& frame,
+                    int plate, int next, double pitch_mm) {
+  const int own = neighbour(transition, plate);
   const Eigen::Vector3d p = frame.of(cloud.points[own]);
   const double outward = plate == 0 ? 1 : -1;
-  BorderPlace place{p.x(), p.y(), 0, kJumpDeviation};
+  LinePlace place{p.x(), p.y(), 0, kJumpDeviation};
   if (cloud.origins[own].segment_end) return place;
   double step = pitch_mm;
   if (next >= 0) step = std::abs(frame.of(cloud.points[next]).y() - p.y());
@@ -80,11 +80,11 @@ BorderPlace end_place(const ScanCloud& cloud, const Passage& passage, const Plat
 
 // Where the light ends at the other plate's edge and goes on down on this one's cut, seen past that
 // edge: the end of the piece that leads up to this plate; -1 where it is not so.
-int end_on_cut(const ScanCloud& cloud, const Passage& passage, const Plane& plane, int plate,
+int end_on_cut(const ScanCloud& cloud, const Transition& transition, const Plane& plane, int plate,
                double near_mm) {
-  const int own = neighbour(passage, plate), other = neighbour(passage, 1 - plate);
-  if (!cloud.organised() || passage.between.empty()) return -1;
-  const int end = plate == 0 ? passage.between.back() : passage.between.front();
+  const int own = neighbour(transition, plate), other = neighbour(transition, 1 - plate);
+  if (!cloud.organised() || transition.between.empty()) return -1;
+  const int end = plate == 0 ? transition.between.back() : transition.between.front();
   const PointOrigin& origin = cloud.origins[end];
   const bool parted = cloud.origins[other].segment_end && origin.segment_end &&
                       origin.segment == cloud.origins[own].segment &&
@@ -93,23 +93,25 @@ int end_on_cut(const ScanCloud& cloud, const Passage& passage, const Plane& plan
 }
 
 // Whether the stripes run through the gap in one piece, so that they end at neither plate.
-bool run_through(const ScanCloud& cloud, const std::vector<Passage>& passages) {
-  const auto through = [&](const Passage& passage) {
-    return !cloud.origins[passage.last].segment_end && !cloud.origins[passage.first].segment_end;
+bool run_through(const ScanCloud& cloud, const std::vector<Transition>& transitions) {
+  const auto through = [&](const Transition& transition) {
+    return !cloud.origins[transition.last].segment_end &&
+           !cloud.origins[transition.first].segment_end;
   };
-  return 2 * std::count_if(passages.begin(), passages.end(), through) > std::ssize(passages);
+  return 2 * std::count_if(transitions.begin(), transitions.end(), through) >
+         std::ssize(transitions);
 }
 
-// All that stripes show between the first and the last of the passages and near their line; and how
-// the line of sight runs there, mm across for each mm down.
+// All that stripes show between the first and the last of the transitions and near their line; and
+// how the line of sight runs there, mm across for each mm down.
 std::pair<std::vector<SeenPlace>, double> seen_near(const ScanCloud& cloud,
-                                                    const std::vector<Passage>& passages,
+                                                    const std::vector<Transition>& transitions,
                                                     const PlateFrame& frame,
                                                     const std::array<Plane, 2>& planes,
-                                                    const NarrowGapSearch& rough) {
+                                                    const ButtGapSearch& rough) {
   double from = std::numeric_limits<double>::infinity(), to = -from;
-  for (const Passage& passage : passages) {
-    const double along = frame.of(cloud.points[passage.last]).x();
+  for (const Transition& transition : transitions) {
+    const double along = frame.of(cloud.points[transition.last]).x();
     from = std::min(from, along), to = std::max(to, along);
   }
   std::vector<SeenPlace> places;
@@ -132,13 +134,13 @@ std::pair<std::vector<SeenPlace>, double> seen_near(const ScanCloud& cloud,
 
 // Both borders by all stripes together, where the plates lie at one level and are seen into
 // between.
-std::optional<std::array<BorderFit, 2>> narrow_borders(const ScanCloud& cloud,
-                                                       const std::vector<Passage>& passages,
-                                                       const PlateFrame& frame,
-                                                       const std::array<Plane, 2>& planes,
-                                                       const BorderFit& first,
-                                                       const BorderFit& second, double near_mm) {
-  NarrowGapSearch search;
+std::optional<std::array<LineFit, 2>> butt_edges(const ScanCloud& cloud,
+                                                 const std::vector<Transition>& transitions,
+                                                 const PlateFrame& frame,
+                                                 const std::array<Plane, 2>& planes,
+                                                 const LineFit& first, const LineFit& second,
+                                                 double near_mm) {
+  ButtGapSearch search;
   search.middle = first.middle;
   search.across = (first.at_middle + second.across_at(first.middle)) / 2;
   search.slope = (first.slope + second.slope) / 2;
@@ -147,26 +149,26 @@ std::optional<std::array<BorderFit, 2>> narrow_borders(const ScanCloud& cloud,
       frame.origin + search.middle * frame.along + search.across * frame.across;
   if (std::abs(planes[0].signed_distance(at) - planes[1].signed_distance(at)) > kOneLevel)
     return std::nullopt;
-  const auto [places, sight] = seen_near(cloud, passages, frame, planes, search);
+  const auto [places, sight] = seen_near(cloud, transitions, frame, planes, search);
   search.sight = sight;
   if (!(std::abs(sight) > kSteepest)) return std::nullopt;
-  return fit_narrow_gap(places, search);
+  return fit_butt_gap(places, search);
 }
 
 }  // namespace
 
-FlatBorders borders_of(const ScanCloud& cloud, const std::vector<Passage>& passages,
+ParallelEdges edges_of(const ScanCloud& cloud, const std::vector<Transition>& transitions,
                        const PlateFrame& frame, const std::array<Plane, 2>& planes, double near_mm,
                        double pitch_mm) {
-  FlatBorders borders;
+  ParallelEdges borders;
   for (int plate = 0; plate < 2; ++plate) {
-    std::vector<BorderPlace> ends, cut, ends_on_cut;
+    std::vector<LinePlace> ends, cut, ends_on_cut;
     double deepest = 0;
-    for (const Passage& passage : passages) {
-      const auto run = falling(cloud, passage, planes[plate], plate);
+    for (const Transition& transition : transitions) {
+      const auto run = falling(cloud, transition, planes[plate], plate);
       ends.push_back(
-          end_place(cloud, passage, frame, plate, follower(cloud, passage, plate), pitch_mm));
-      if (const int i = end_on_cut(cloud, passage, planes[plate], plate, near_mm); i >= 0) {
+          end_place(cloud, transition, frame, plate, follower(cloud, transition, plate), pitch_mm));
+      if (const int i = end_on_cut(cloud, transition, planes[plate], plate, near_mm); i >= 0) {
         const Eigen::Vector3d p = frame.of(cloud.points[i]);
         ends_on_cut.push_back({p.x(), p.y(), 0, kCutDeviation});
       }
@@ -185,35 +187,35 @@ FlatBorders borders_of(const ScanCloud& cloud, const std::vector<Passage>& passa
     }
     if (cut.size() >= kLeastCut && -deepest > kLeastDepth) {
       // Falling away from plate 0 is toward larger across. What does not slant open is cut square.
-      if (const auto fit = fit_border(cut, kFreeCut);
+      if (const auto fit = fit_line(cut, kFreeCut);
           fit && std::atan((plate == 0 ? -1 : 1) * fit->lean) > kSlanting) {
         borders.plates[plate] = fit;
         borders.slants[plate] = std::atan((plate == 0 ? -1 : 1) * fit->lean);
         continue;
       }
     }
-    const bool parted = 2 * ends_on_cut.size() > passages.size();
+    const bool parted = 2 * ends_on_cut.size() > transitions.size();
     borders.together |= parted;
-    borders.plates[plate] = fit_border(parted ? ends_on_cut : ends, kSquareCut);
+    borders.plates[plate] = fit_line(parted ? ends_on_cut : ends, kSquareCut);
   }
   const auto& [first, second] = borders.plates;
   if (borders.slants[0] || borders.slants[1] || !first || !second || !cloud.organised() ||
-      !run_through(cloud, passages))
+      !run_through(cloud, transitions))
     return borders;
-  const auto narrow = narrow_borders(cloud, passages, frame, planes, *first, *second, near_mm);
+  const auto narrow = butt_edges(cloud, transitions, frame, planes, *first, *second, near_mm);
   if (!narrow) return borders;
   borders.plates = {(*narrow)[0], (*narrow)[1]};
   borders.together = true;
   return borders;
 }
 
-std::optional<LapFoot> lap_foot(const ScanCloud& cloud, const std::vector<Passage>& passages,
+std::optional<LapRoot> lap_root(const ScanCloud& cloud, const std::vector<Transition>& transitions,
                                 const PlateFrame& frame, const std::array<Plane, 2>& planes,
                                 int upper, double step_mm, double near_mm, double pitch_mm) {
-  std::vector<BorderPlace> cut, ends;
+  std::vector<LinePlace> cut, ends;
   const Plane& lower = planes[1 - upper];
-  for (const Passage& passage : passages) {
-    for (const int i : passage.between) {
+  for (const Transition& transition : transitions) {
+    for (const int i : transition.between) {
       const double height = lower.signed_distance(cloud.points[i]);
       if (height < kOffPlate * near_mm || height > step_mm - kOffPlate * near_mm ||
           cloud.origins[i].segment_end)
@@ -224,11 +226,11 @@ std::optional<LapFoot> lap_foot(const ScanCloud& cloud, const std::vector<Passag
     // What follows on the upper plate's last point belongs to its cut or, in a thin plate's scan,
     // to the lower plate.
     ends.push_back(
-        end_place(cloud, passage, frame, upper, follower(cloud, passage, upper), pitch_mm));
+        end_place(cloud, transition, frame, upper, follower(cloud, transition, upper), pitch_mm));
   }
   if (cut.size() >= kLeastCut)
-    if (const auto fit = fit_border(cut, kSquareCut)) return LapFoot{*fit, true};
-  if (const auto fit = fit_border(ends, kSquareCut)) return LapFoot{*fit, false};
+    if (const auto fit = fit_line(cut, kSquareCut)) return LapRoot{*fit, true};
+  if (const auto fit = fit_line(ends, kSquareCut)) return LapRoot{*fit, false};
   return std::nullopt;
 }
 

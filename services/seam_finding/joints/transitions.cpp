@@ -54,17 +54,18 @@ std::vector<Section> sections_across(const ScanCloud& cloud, const PlateFrame& f
   return sections;
 }
 
-std::vector<Passage> passages_between(const ScanCloud& cloud, const std::vector<Section>& sections,
-                                      const std::vector<int>& face_of,
-                                      const std::vector<Face>& faces, int a, int b,
-                                      double near_mm) {
+std::vector<Transition> transitions_between(const ScanCloud& cloud,
+                                            const std::vector<Section>& sections,
+                                            const std::vector<int>& face_of,
+                                            const std::vector<Face>& faces, int a, int b,
+                                            double near_mm) {
   const auto on_plate = [&](int i) {
     const int face = face_of[i];
     return (face == a || face == b) &&
            (cloud.origins[i].segment_end ||
             std::abs(faces[face].plane.signed_distance(cloud.points[i])) <= near_mm);
   };
-  std::vector<Passage> passages;
+  std::vector<Transition> transitions;
   for (std::size_t k = 0; k < sections.size(); ++k) {
     int last = -1;
     std::vector<int> between;
@@ -76,12 +77,13 @@ std::vector<Passage> passages_between(const ScanCloud& cloud, const std::vector<
       const bool parted = !between.empty() ||
                           (last >= 0 && cloud.origins[last].segment != cloud.origins[i].segment);
       if (last >= 0 && (a == b ? parted : face_of[last] != face_of[i]))
-        passages.push_back({static_cast<int>(k), last, i, std::move(between), face_of[last] == a});
+        transitions.push_back(
+            {static_cast<int>(k), last, i, std::move(between), face_of[last] == a});
       between.clear();
       last = i;
     }
   }
-  return passages;
+  return transitions;
 }
 
 }  // namespace arcstart::seam_finding

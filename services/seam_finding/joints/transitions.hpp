@@ -26,7 +26,7 @@ std::vector<Section> sections_across(const ScanCloud& cloud, const PlateFrame& f
                                      double spacing_mm);
 
 // In a section two neighbours on plates, with what lies between them.
-struct Passage {
+struct Transition {
   int section = 0;
   int last = 0, first = 0;   // indices of the points: the one with the smaller `across`, the other
   std::vector<int> between;  // on neither plate, in order
@@ -37,8 +37,10 @@ struct Passage {
 // that lie in different segments or with something between. A point is on its face where it is no
 // farther from it than `near_mm`, a segment's end wherever the face holds it. faces: of each point,
 // the index of its face, -1 for none.
-std::vector<Passage> passages_between(const ScanCloud& cloud, const std::vector<Section>& sections,
-                                      const std::vector<int>& face_of,
-                                      const std::vector<Face>& faces, int a, int b, double near_mm);
+std::vector<Transition> transitions_between(const ScanCloud& cloud,
+                                            const std::vector<Section>& sections,
+                                            const std::vector<int>& face_of,
+                                            const std::vector<Face>& faces, int a, int b,
+                                            double near_mm);
 
 }  // namespace arcstart::seam_finding

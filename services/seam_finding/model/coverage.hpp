@@ -6,12 +6,6 @@
 
 namespace arcstart::seam_finding {
 
-struct CourseSearch {
-  double spacing = 1;      // between stripes, or points of an unorganised cloud; mm
-  double tolerance = 0.5;  // of a point's distance from its plate; mm
-  double bridge = 20;      // a seam goes on behind an interruption no longer than this; mm
-};
-
 // A stripe that crosses the line, or without stripes a piece of the line.
 struct Station {
   double along = 0;  // where it crosses; mm
@@ -34,7 +28,7 @@ struct Stations {
   }
 };
 
-struct Course {
+struct Coverage {
   double begin = 0, end = 0;    // along the line; mm
   double covered = 0;           // of it, where both plates were seen; mm
   int stripes = 0;              // stations with both plates, places that lie together counted once

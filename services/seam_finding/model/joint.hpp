@@ -4,7 +4,6 @@
 #include <array>
 #include <cmath>
 #include <optional>
-#include <string>
 #include <vector>
 
 #include "common/geometry.hpp"
@@ -12,18 +11,19 @@
 #include "services/seam_finding/model/coverage.hpp"
 #include "services/seam_finding/model/joint_type.hpp"
 #include "services/seam_finding/model/plate.hpp"
+#include "services/seam_finding/model/reason.hpp"
 
 namespace arcstart::seam_finding {
 
 // Of a joint whose plates lie in one plane or in parallel ones.
-struct FlatSeam {
+struct ParallelSeam {
   // Where each plate ends toward the other, along the seam's direction: of a lap the lower plate as
   // far as it was seen, and the upper one's lower edge.
-  std::array<Line, 2> borders;
-  BorderFit seam;            // how well the seam is known across, along its line; mm
+  std::array<Line, 2> edges;
+  LineFit seam;              // how well the seam is known across, along its line; mm
   int lower = 0;             // of a lap: which plate
   double step = 0;           // and the upper plate's top over the lower one's; mm
-  bool foot_hidden = false;  // of the step: nothing of the upper plate's cut was seen
+  bool root_hidden = false;  // of the step: nothing of the upper plate's cut was seen
   double half_angle = 0;     // of a groove's slant from the plates' normal; rad
   struct Gap {
     double along = 0, width = 0;  // on the seam's line; mm
@@ -42,13 +42,13 @@ struct Joint {
   double concavity = 0;  // share of each plate's points beside the line that lie before the other
                          // plate, outside a corner behind it, the smaller
   double score = 0;      // mm of seam, less for what is not as it should be
-  Course course;
+  Coverage coverage;
   double explained = 0;  // share of all points beside the line that lie on the two plates' planes
-  std::optional<FlatSeam> flat;
-  std::string flaw;  // why it is no joint, empty where it may be one
+  std::optional<ParallelSeam> parallel;
+  Reason flaw;  // why it is no joint, none where it may be one
 
-  Eigen::Vector3d start() const { return line.at(course.begin); }
-  Eigen::Vector3d end() const { return line.at(course.end); }
+  Eigen::Vector3d start() const { return line.at(coverage.begin); }
+  Eigen::Vector3d end() const { return line.at(coverage.end); }
 };
 
 // From the planes' normals, of a joint whose plates cross; rad.

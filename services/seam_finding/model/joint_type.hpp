@@ -21,7 +21,7 @@ std::string name_of(JointType type);
 // What the setting `joint_type` asks for: the one it names; `any`: tee, lap, butt and v.
 std::vector<JointType> wanted_types(const std::string& setting);
 
-inline bool is_flat(JointType type) {
+inline bool is_parallel(JointType type) {
   return type == JointType::kLap || type == JointType::kButt || type == JointType::kV;
 }
 

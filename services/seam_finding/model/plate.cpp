@@ -15,7 +15,7 @@ Eigen::Vector3d away_from_seam(const JointPlate& plate, const JointPlate& other)
   return (toward - toward.dot(n) * n).normalized();
 }
 
-std::vector<int> without_scraps(const ScanCloud& cloud, const std::vector<int>& points) {
+std::vector<int> without_fragments(const ScanCloud& cloud, const std::vector<int>& points) {
   if (!cloud.organised()) return points;
   std::vector<int> kept;
   for (std::size_t first = 0, last = 0; first < points.size(); first = last) {

@@ -11,7 +11,8 @@ namespace arcstart::seam_finding {
 
 // A connected piece of a plane, as one side of a plate gives it.
 struct Face {
-  Plane plane;              // normal of either sign
+  Plane plane;              // normal of either sign, until turned to the sensor
+  bool side_known = true;   // false: turned to the sensor, but its other side may have been seen
   double rms = 0;           // of its points; mm
   double spacing = 0;       // of its points, the wider one where it differs by direction; mm
   std::vector<int> points;  // indices into the cloud, rising
@@ -29,7 +30,7 @@ struct JointPlate {
 
 // The points but for pieces of a stripe that are so short that chance may lay them on a plate:
 // fewer than three points in a row, or two at a segment's end. All of a cloud without stripes.
-std::vector<int> without_scraps(const ScanCloud& cloud, const std::vector<int>& points);
+std::vector<int> without_fragments(const ScanCloud& cloud, const std::vector<int>& points);
 
 // In a plate, away from the seam. Unit.
 Eigen::Vector3d away_from_seam(const JointPlate& plate, const JointPlate& other);

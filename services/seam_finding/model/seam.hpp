@@ -7,11 +7,12 @@
 #include <string>
 #include <vector>
 
+#include "services/seam_finding/model/reason.hpp"
 #include "services/seam_finding/model/seam_end.hpp"
 
 namespace arcstart::seam_finding {
 
-struct SurveyPlace {
+struct SeamMeasurement {
   double along = 0;          // on the seam's line; mm
   int stripe = -1;           // index, -1 in a cloud without stripes
   Eigen::Vector3d position;  // of the seam there, in base; mm
@@ -24,6 +25,7 @@ struct Polyline {
   std::vector<Eigen::Vector3d> points;
   double deviation = -1;  // largest residual from it, averaged likewise; mm, -1 where not measured
 };
+
 struct SeamAccuracy {
   Eigen::Matrix3d start, end;  // covariances in base, random part; mm2
   double direction = -1;       // standard deviations; rad
@@ -42,8 +44,8 @@ struct TorchPose {
 struct SeamResult {
   enum class Verdict { kFound, kAmbiguous, kRefused };
   Verdict verdict = Verdict::kRefused;
-  std::string reason;  // why, where not found
-  std::string remark;  // what a person should know of a found one
+  Reason reason;                // why, where not found
+  std::vector<Reason> remarks;  // what a person should know of a found one
 
   // Where found. In base, mm and rad.
   std::string joint_type;
@@ -53,11 +55,13 @@ struct SeamResult {
                                             Eigen::Vector3d::Zero()};  // out of the metal
   double angle = 0;  // between the plates' open sides; of a groove, between its slants
   double gap = -1, gap_deviation = -1;  // mean along the seam; of a groove, its width at the top
+  double thickness = -1;                // of a lap's upper plate; mm
+  double groove_angle = -1;             // included angle of a V-groove; rad
   EndVisibility start_visibility = EndVisibility::kNotDetermined;
   EndVisibility end_visibility = EndVisibility::kNotDetermined;
   std::optional<SeamAccuracy> accuracy;  // nothing where it was not determined
-  Polyline course;
-  std::vector<SurveyPlace> stations;  // along counts from the start
+  Polyline polyline;
+  std::vector<SeamMeasurement> stations;  // along counts from the start
   std::optional<TorchPose> torch;
   std::array<std::vector<int>, 2> plates;  // indices of the plates' points
 
@@ -66,7 +70,7 @@ struct SeamResult {
     std::string joint_type;
     double score = 0;
     Eigen::Vector3d start, end;
-    std::string reason;  // why it is not the answer
+    Reason reason;  // why it is not the answer
   };
   std::vector<Alternative> alternatives;
 

@@ -16,13 +16,6 @@ struct SeamEnd {
   bool by_edges = false;  // else known to half the distance of two stripes
 };
 
-struct EndSearch {
-  double tolerance = 0.5;    // of a point's distance from its plate; mm
-  double noise = 0.05;       // of the points across their surface, standard deviation; mm
-  double shortening_px = 0;  // a stripe's last centre lies so far before the edge, square to it
-  double slope = 0.001;      // of a plate's edge, standard deviation; mm along for each mm away
-};
-
 struct PlateEdge {
   double along = 0;     // where it crosses the seam; mm
   double variance = 0;  // mm2

@@ -16,11 +16,11 @@ constexpr double kShiftStep = 1.2;
 constexpr double kShiftShown = 2.4;
 
 // The one by which the strips lie on a line best, in least squares.
-ReflectionShift reflection_shift(const StripMeans& strips) {
-  ReflectionShift best;
+InterreflectionShift interreflection_shift(const StripMeans& strips) {
+  InterreflectionShift best;
   double least = std::numeric_limits<double>::infinity();
   for (double at = kNearestShift; at < kFarthestShift * strips.back().distance; at *= kShiftStep) {
-    const ReflectionShift shape{1, at};
+    const InterreflectionShift shape{1, at};
     Eigen::Matrix3d squares = Eigen::Matrix3d::Zero();
     Eigen::Vector3d products = Eigen::Vector3d::Zero();
     for (const Strip& strip : strips) {
@@ -78,14 +78,14 @@ InLine in_line(const StripMeans& strips, double agree) {
 
 }  // namespace
 
-AgreedStrips agreed_strips(const StripMeans& strips, double noise) {
+ConsistentStrips consistent_strips(const StripMeans& strips, double noise) {
   double points = 0;
   for (const Strip& strip : strips) points += strip.points;
   const double agree = noise * std::max(kLeastNoise, kDeviations * std::sqrt(kStrips / points));
-  AgreedStrips agreed;
+  ConsistentStrips agreed;
   InLine line = in_line(strips, agree);
   if (line.off > kShiftShown) {
-    const ReflectionShift shift = reflection_shift(strips);
+    const InterreflectionShift shift = interreflection_shift(strips);
     StripMeans lowered = strips;
     for (Strip& strip : lowered) strip.height -= shift(strip.distance);
     const InLine without_shift = in_line(lowered, agree);

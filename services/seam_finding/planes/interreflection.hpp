@@ -20,7 +20,7 @@ using StripMeans = std::array<Strip, kStrips>;  // from the seam outward
 // What a reflection adds to the heights. At the seam it lies on the stripe; from there it moves
 // aside in proportion to the distance, draws the stripe's centre along, and lets go of it once it
 // lies beside the stripe.
-struct ReflectionShift {
+struct InterreflectionShift {
   double most = 0, at = 1;  // mm, at that distance from the seam
   double operator()(double distance) const {
     const double r = distance / at;
@@ -30,12 +30,12 @@ struct ReflectionShift {
 
 // Those that lie on one line, seen along the seam, once the heights are lowered by the shift. All
 // where no line is plain.
-struct AgreedStrips {
+struct ConsistentStrips {
   std::bitset<kStrips> strips;
-  ReflectionShift shift;
+  InterreflectionShift shift;
 };
 
 // noise: standard deviation of a single point's height; mm.
-AgreedStrips agreed_strips(const StripMeans& strips, double noise);
+ConsistentStrips consistent_strips(const StripMeans& strips, double noise);
 
 }  // namespace arcstart::seam_finding

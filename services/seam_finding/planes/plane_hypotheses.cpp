@@ -18,7 +18,7 @@ std::vector<Eigen::Vector3d> every(std::size_t step, std::size_t first,
   return some;
 }
 
-SuggestedPlanes::SuggestedPlanes(std::vector<Plane> planes,
+PlaneHypotheses::PlaneHypotheses(std::vector<Plane> planes,
                                  const std::vector<Eigen::Vector3d>& points, const Pieces& pieces,
                                  const PlaneSearch& search)
     : search_(search),
@@ -35,7 +35,7 @@ SuggestedPlanes::SuggestedPlanes(std::vector<Plane> planes,
     offer(left_.count_near(planes_[i], search.tolerance, 0, left_.size()), i);
 }
 
-std::optional<Plane> SuggestedPlanes::best() {
+std::optional<Plane> PlaneHypotheses::best() {
   while (!worths_.empty()) {
     const auto [bound, place] = worths_.top();
     worths_.pop();
@@ -48,14 +48,14 @@ std::optional<Plane> SuggestedPlanes::best() {
   return std::nullopt;
 }
 
-void SuggestedPlanes::remove(const std::vector<int>& places) {
+void PlaneHypotheses::remove(const std::vector<int>& places) {
   std::vector<int> sampled;
   for (const int i : places)
     if (i % static_cast<int>(step_) == 0) sampled.push_back(i / static_cast<int>(step_));
   left_.remove(sampled);
 }
 
-void SuggestedPlanes::offer(int worth, std::size_t plane) {
+void PlaneHypotheses::offer(int worth, std::size_t plane) {
   if (worth >= least_) worths_.emplace(worth, -static_cast<int>(plane));
 }
 

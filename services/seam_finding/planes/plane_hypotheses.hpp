@@ -23,10 +23,10 @@ std::vector<Eigen::Vector3d> every(std::size_t step, std::size_t first,
 
 // Judged by an even sample of the points: the plane with the largest connected piece comes first.
 // Faces taken away only ever lessen what a plane is worth, so that most need not be judged again.
-class SuggestedPlanes {
+class PlaneHypotheses {
  public:
   // pieces: of the points, connected within search.connection.
-  SuggestedPlanes(std::vector<Plane> planes, const std::vector<Eigen::Vector3d>& points,
+  PlaneHypotheses(std::vector<Plane> planes, const std::vector<Eigen::Vector3d>& points,
                   const Pieces& pieces, const PlaneSearch& search);
 
   // Nothing where no one is worth a face any more.

@@ -222,7 +222,7 @@ std::vector<Face> find_faces(const ScanCloud& cloud, std::vector<int> indices,
   }
   const NeighbourGrid grid(points, search.connection);
   Sought sought{points, std::move(segment_ends), Pieces(grid), PlanePoints(points)};
-  SuggestedPlanes suggested(planes_of_stripes(cloud, indices, search), sought.points, sought.pieces,
+  PlaneHypotheses suggested(planes_of_stripes(cloud, indices, search), sought.points, sought.pieces,
                             search);
   std::vector<Face> faces;
   Dice dice(seed);

@@ -66,7 +66,7 @@ class Heights {
     return h_[i] - model.offset - model.along * a_[i] - model.across * b_[i];
   }
 
-  void lower_by(const ReflectionShift& shift) {
+  void lower_by(const InterreflectionShift& shift) {
     for (std::size_t i = 0; i < count_; ++i) h_[i] -= static_cast<float>(shift(distance_[i]));
   }
 
@@ -90,8 +90,8 @@ Heights::Model Heights::narrowed(Model model, double noise,
   double settled_at = 0;
   for (const double limit : limits) {
     if (limit == settled_at) continue;
-    const TukeySums s = tukey_sums({a_.data(), b_.data(), h_.data(), h_.size()}, model.offset,
-                                   model.along, model.across, limit * kTukey * noise);
+    const BiweightSums s = biweight_sums({a_.data(), b_.data(), h_.data(), h_.size()}, model.offset,
+                                         model.along, model.across, limit * kTukey * noise);
     if (s.w < static_cast<double>(kLeastPoints / 2)) return model;
     // Of the smaller spread within the plane.
     const double ma = s.a / s.w, mb = s.b / s.w;
@@ -189,7 +189,7 @@ Plane robust_plane(const std::vector<Eigen::Vector3d>& points, const Line& line,
   const auto strip_of = strips_of(heights);
   const auto strips = means_of(heights, strip_of, model, allowed);
   if (!strips) return heights.plane(model);
-  const AgreedStrips agreed = agreed_strips(*strips, allowed);
+  const ConsistentStrips agreed = consistent_strips(*strips, allowed);
   if (agreed.shift.most != 0) heights.lower_by(agreed.shift);
   model = heights.chosen(strip_of, agreed.strips).narrowed(model, allowed, {1.0, 1.0, 1.0, 1.0});
   return heights.plane(model);

@@ -50,7 +50,8 @@ SeenPoint seen_near(const CollectedScan& scan, const Eigen::Vector3d& place) {
 
 }  // namespace
 
-void fill_in_systematic(seam_t& seam, const CollectedScan& scan, const Calibration* calibration) {
+void fill_in_calibration_covariance(seam_t& seam, const CollectedScan& scan,
+                                    const Calibration* calibration) {
   if (seam.verdict != seam_t::FOUND) return;
   const auto undetermined = [&](const char* why) {
     seam.remark += std::string("systematic deviations not determined: ") + why;
@@ -58,9 +59,9 @@ void fill_in_systematic(seam_t& seam, const CollectedScan& scan, const Calibrati
   if (calibration == nullptr || calibration->id != seam.calibration_id)
     return undetermined("the scan's calibration was not heard of here");
   if (calibration->covariance.empty()) return undetermined("the calibration has no covariance");
-  const auto start = systematic_covariance(
+  const auto start = calibration_covariance(
       *calibration, seen_near(scan, Eigen::Map<const Eigen::Vector3d>(seam.start)));
-  const auto end = systematic_covariance(
+  const auto end = calibration_covariance(
       *calibration, seen_near(scan, Eigen::Map<const Eigen::Vector3d>(seam.end)));
   if (!start || !end) return undetermined("the calibration's covariance is none");
   for (int row = 0; row < 3; ++row)

@@ -10,6 +10,7 @@ namespace arcstart::seam_finding {
 
 // start_systematic and end_systematic of a seam that was found; says in its remark why they are not
 // determined. calibration: that of the scan, nullptr where it is not known.
-void fill_in_systematic(seam_t& seam, const CollectedScan& scan, const Calibration* calibration);
+void fill_in_calibration_covariance(seam_t& seam, const CollectedScan& scan,
+                                    const Calibration* calibration);
 
 }  // namespace arcstart::seam_finding

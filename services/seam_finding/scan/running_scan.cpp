@@ -25,12 +25,12 @@ void RunningScan::take(const profile_t& profile, const StoredBackground* backgro
   // What comes late, or twice, or beyond all bounds is left to finish().
   if (!seqs_.empty() && profile.seq <= seqs_.back()) return;
   if (builder_->cloud().size() + profile.count > kMostPoints) return;
-  if (background_id_ == 0 && prepared_.division.size() == 0) background_id_ = id_of(background);
+  if (background_id_ == 0 && prepared_.segmentation.size() == 0) background_id_ = id_of(background);
   builder_->add(profile);
-  thin(builder_->cloud(), prepared_.thinned);
+  downsample(builder_->cloud(), prepared_.downsampled);
   seqs_.push_back(profile.seq);
   if (background && background->scan_id() == background_id_)
-    divide(builder_->cloud(), background->model(), prepared_.division);
+    segment(builder_->cloud(), background->model(), prepared_.segmentation);
 }
 
 bool RunningScan::is_ready(const CollectedScan& scan) const {
@@ -48,11 +48,11 @@ const PreparedScan& RunningScan::finish(const CollectedScan& scan,
   was_ready_ = is_ready(scan);
   if (!was_ready_) return prepared_ = prepare(scan, background);
   builder_->miss_until(scan.state.last_seq + 1);
-  thin(builder_->cloud(), prepared_.thinned);
+  downsample(builder_->cloud(), prepared_.downsampled);
   prepared_.cloud = builder_->take_cloud();
   builder_.reset();
-  if (!background || background->scan_id() != background_id_) prepared_.division = {};
-  if (background) divide(prepared_.cloud, background->model(), prepared_.division);
+  if (!background || background->scan_id() != background_id_) prepared_.segmentation = {};
+  if (background) segment(prepared_.cloud, background->model(), prepared_.segmentation);
   return prepared_;
 }
 

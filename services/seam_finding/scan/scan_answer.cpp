@@ -4,9 +4,9 @@
 
 #include <algorithm>
 
-#include "services/seam_finding/background/neighbour_background.hpp"
 #include "services/seam_finding/background/surface_background.hpp"
 #include "services/seam_finding/find_seam.hpp"
+#include "services/seam_finding/paper/find_seam_as_in_the_paper.hpp"
 #include "services/seam_finding/scan/cloud_builder.hpp"
 #include "services/seam_finding/scan/covariance_message.hpp"
 #include "services/seam_finding/scan/seam_message.hpp"
@@ -143,8 +143,8 @@ seam_t answer_workpiece(const CollectedScan& scan, const StoredBackground* backg
 
 PreparedScan prepare(const CollectedScan& scan, const StoredBackground* background) {
   PreparedScan prepared{cloud_of(scan), {}, {}};
-  thin(prepared.cloud, prepared.thinned);
-  if (background) divide(prepared.cloud, background->model(), prepared.division);
+  downsample(prepared.cloud, prepared.downsampled);
+  if (background) segment(prepared.cloud, background->model(), prepared.segmentation);
   return prepared;
 }
 
@@ -177,10 +177,10 @@ seam_t answer_workpiece(const CollectedScan& scan, const PreparedScan& prepared,
   seam.background_scan_id = background->scan_id();
   seam.remark = balance.losses();
   if (scan.state.end_reason == "camera lost") seam.remark += "the camera was lost in the scan; ";
-  fill_in(seam, find_seam(cloud, prepared.division, prepared.thinned, settings,
+  fill_in(seam, find_seam(cloud, prepared.segmentation, prepared.downsampled, settings,
                           static_cast<std::uint64_t>(scan.state.scan_id)));
-  seam.background_points = static_cast<int>(prepared.division.background.size());
-  fill_in_systematic(seam, scan, calibration);
+  seam.background_points = static_cast<int>(prepared.segmentation.background.size());
+  fill_in_calibration_covariance(seam, scan, calibration);
   return seam;
 }
 

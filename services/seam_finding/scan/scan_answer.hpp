@@ -8,7 +8,7 @@
 #include "common/calibration.hpp"
 #include "services/seam_finding/background/background.hpp"
 #include "services/seam_finding/background/segmentation.hpp"
-#include "services/seam_finding/cloud/thinned_cloud.hpp"
+#include "services/seam_finding/cloud/downsampled_cloud.hpp"
 #include "services/seam_finding/model/scan_cloud.hpp"
 #include "services/seam_finding/scan/scan_collector.hpp"
 #include "services/seam_finding/seam_finding_settings.hpp"
@@ -58,8 +58,8 @@ std::string background_error(const CollectedScan& scan);
 // background.
 struct PreparedScan {
   ScanCloud cloud;
-  Division division;
-  ThinnedCloud thinned;
+  Segmentation segmentation;
+  DownsampledCloud downsampled;
 };
 PreparedScan prepare(const CollectedScan& scan, const StoredBackground* background);
 

@@ -2,6 +2,8 @@
 
 #include <algorithm>
 
+#include "services/seam_finding/answer/wording.hpp"
+
 namespace arcstart::seam_finding {
 namespace {
 
@@ -53,16 +55,16 @@ void fill_in(seam_t& seam, const SeamResult& result) {
     alternative.score = other.score;
     copy(other.start, alternative.start);
     copy(other.end, alternative.end);
-    alternative.reason = other.reason;
+    alternative.reason = in_words(other.reason);
     seam.alternatives.push_back(alternative);
   }
   seam.alternative_count = static_cast<int>(seam.alternatives.size());
-  seam.reason = result.reason;
+  seam.reason = in_words(result.reason);
   if (result.verdict == SeamResult::Verdict::kRefused) seam.verdict = seam_t::REFUSED;
   if (result.verdict == SeamResult::Verdict::kAmbiguous) seam.verdict = seam_t::AMBIGUOUS;
   if (result.verdict != SeamResult::Verdict::kFound) return;
   seam.verdict = seam_t::FOUND;
-  seam.remark += result.remark;
+  seam.remark += in_words(result.remarks);
   seam.joint_type = result.joint_type;
   seam.seam_points = static_cast<int>(result.plates[0].size() + result.plates[1].size());
   copy(result.start, seam.start);
@@ -75,11 +77,11 @@ void fill_in(seam_t& seam, const SeamResult& result) {
   seam.gap_deviation = result.gap_deviation;
   seam.start_visibility = visibility_of(result.start_visibility);
   seam.end_visibility = visibility_of(result.end_visibility);
-  for (const Eigen::Vector3d& point : result.course.points)
+  for (const Eigen::Vector3d& point : result.polyline.points)
     seam.polyline.push_back({point.x(), point.y(), point.z()});
   seam.polyline_count = static_cast<int>(seam.polyline.size());
-  seam.polyline_deviation = result.course.deviation;
-  for (const SurveyPlace& place : result.stations) {
+  seam.polyline_deviation = result.polyline.deviation;
+  for (const SeamMeasurement& place : result.stations) {
     seam_station_t station{};
     station.distance = place.along;
     copy(place.position, station.position);

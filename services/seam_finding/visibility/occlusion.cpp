@@ -46,9 +46,9 @@ int points_past(const ScanCloud& cloud, const std::array<JointPlate, 2>& plates,
 
 }  // namespace
 
-bool hidden_between(const ScanCloud& cloud, const std::array<JointPlate, 2>& plates,
-                    const Line& line, const Stations& stations, int from, int to,
-                    double tolerance) {
+bool occluded_between(const ScanCloud& cloud, const std::array<JointPlate, 2>& plates,
+                      const Line& line, const Stations& stations, int from, int to,
+                      double tolerance) {
   int stripes = 0, hidden = 0, past = 0;
   for (int k = from + 1; k < to; ++k) {
     const Station& station = stations.list[k];

@@ -10,8 +10,9 @@ namespace arcstart::seam_finding {
 // Between two stations that show both plates: something stands before the plates in at least one of
 // the stripes, and in none of them (but for a lone one in many, a reflection) something is seen
 // past a plate where it would be at the seam.
-bool hidden_between(const ScanCloud& cloud, const std::array<JointPlate, 2>& plates,
-                    const Line& line, const Stations& stations, int from, int to, double tolerance);
+bool occluded_between(const ScanCloud& cloud, const std::array<JointPlate, 2>& plates,
+                      const Line& line, const Stations& stations, int from, int to,
+                      double tolerance);
 
 // Whether something stands before both plates in one of the stripes that cross the line within
 // `around` mm of a place on it; it may hide the seam there.

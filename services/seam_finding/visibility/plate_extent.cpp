@@ -73,10 +73,10 @@ bool on_plate_at(const ScanCloud& cloud, const PlateStripes& stripes, std::size_
 // farther than `far` from the seam, of each of the stripes about `near`; mm outward, infinite where
 // nothing is.
 std::vector<double> first_past(const ScanCloud& cloud, const PlateStripes& stripes, double outward,
-                               double near, double from, double far, const EndSearch& search,
+                               double near, double from, double far, const Scales& scales,
                                const StripeCrossings& crossings) {
   const Line& line = stripes.line;
-  const double slack = kBeam * search.noise;
+  const double slack = kBeam * scales.noise;
   std::vector<double> places(cloud.stripes.size(), std::numeric_limits<double>::infinity());
   for (std::size_t k = 0; k < cloud.stripes.size(); ++k) {
     const ScanStripe& stripe = cloud.stripes[k];
@@ -88,7 +88,7 @@ std::vector<double> first_past(const ScanCloud& cloud, const PlateStripes& strip
     MostOfRuns past(cloud), beside(cloud);
     double fall_from = far, fall_to = 0;  // of the light that falls past, from the seam
     for (int i = stripe.first; i <= last; ++i) {
-      const auto through = seen_through(cloud, stripes.plate.plane, i, search.tolerance);
+      const auto through = seen_through(cloud, stripes.plate.plane, i, scales.tolerance);
       if (!through) continue;
       const double r = stripes.away.dot(*through - line.point);
       const double place = outward * line.along(*through) + kSquareCut * r + slack;
@@ -112,32 +112,32 @@ std::vector<double> first_past(const ScanCloud& cloud, const PlateStripes& strip
 }  // namespace
 
 double seen_on_plate(const ScanCloud& cloud, const PlateStripes& stripes, SeamSide side,
-                     double near, const EndSearch& search, const StripeCrossings& crossings,
+                     double near, const Scales& scales, const StripeCrossings& crossings,
                      double reach) {
   const double outward = side == SeamSide::kEnd ? 1 : -1;
   reach = std::min(reach, usable_reach(stripes));
-  const double most = outermost(cloud, stripes, outward, search.noise,
+  const double most = outermost(cloud, stripes, outward, scales.noise,
                                 std::numeric_limits<double>::infinity(), reach);
   if (most < outward * near + kGoesOn) return most;
   std::vector<double> places = first_past(cloud, stripes, outward, near, outward * near,
-                                          std::min(kClose, reach - kFarEdge), search, crossings);
+                                          std::min(kClose, reach - kFarEdge), scales, crossings);
   std::sort(places.begin(), places.end());
   double past = places[0];
   // Behind a plate's end stripe after stripe is past it: one alone shows a reflection.
   if (places.size() > 1 && places[1] > past + kLoneStripe) past = places[1];
   if (past > most) return most;
   // Another thing lies in the plate's plane, and may do so from before the plate's end.
-  return outermost(cloud, stripes, outward, search.noise, past, std::min(kClose, reach));
+  return outermost(cloud, stripes, outward, scales.noise, past, std::min(kClose, reach));
 }
 
 PlateExtent plate_extent(const ScanCloud& cloud, const PlateStripes& stripes, SeamSide side,
-                         double near, const EndSearch& search, const StripeCrossings& crossings) {
+                         double near, const Scales& scales, const StripeCrossings& crossings) {
   PlateExtent extent;
   if (!cloud.organised()) return extent;
-  extent.on = seen_on_plate(cloud, stripes, side, near, search, crossings);
+  extent.on = seen_on_plate(cloud, stripes, side, near, scales, crossings);
   const std::vector<double> past =
       first_past(cloud, stripes, side == SeamSide::kEnd ? 1 : -1, near, extent.on,
-                 usable_reach(stripes) - kFarEdge, search, crossings);
+                 usable_reach(stripes) - kFarEdge, scales, crossings);
   extent.past = *std::min_element(past.begin(), past.end());
   return extent;
 }

@@ -6,6 +6,7 @@
 #include <optional>
 #include <vector>
 
+#include "services/seam_finding/model/scales.hpp"
 #include "services/seam_finding/model/scan_cloud.hpp"
 #include "services/seam_finding/model/seam_end.hpp"
 #include "services/seam_finding/visibility/plate_stripes.hpp"
@@ -26,12 +27,11 @@ struct StripeCrossings {
 // lies in that plane beyond a place that is seen past is another thing. Looks at the stripes about
 // `near`, a place on the plate, along the line; mm. Nothing is known in a cloud without stripes.
 PlateExtent plate_extent(const ScanCloud& cloud, const PlateStripes& stripes, SeamSide side,
-                         double near, const EndSearch& search,
-                         const StripeCrossings& crossings = {});
+                         double near, const Scales& scales, const StripeCrossings& crossings = {});
 // The first of the two alone, at much less cost; from what lies no farther than `reach` from the
 // seam, mm.
 double seen_on_plate(const ScanCloud& cloud, const PlateStripes& stripes, SeamSide side,
-                     double near, const EndSearch& search, const StripeCrossings& crossings = {},
+                     double near, const Scales& scales, const StripeCrossings& crossings = {},
                      double reach = std::numeric_limits<double>::infinity());
 
 }  // namespace arcstart::seam_finding

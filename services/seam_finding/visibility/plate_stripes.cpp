@@ -66,7 +66,7 @@ std::optional<Eigen::Vector3d> seen_through(const ScanCloud& cloud, const Plane&
 }
 
 PlateStripes plate_stripes(const ScanCloud& cloud, const JointPlate& plate, const JointPlate& other,
-                           const Line& line, double tolerance, double noise) {
+                           const Line& line, const Scales& scales) {
   PlateStripes stripes{plate, other, line, away_from_seam(plate, other),
                        std::vector<std::vector<int>>(cloud.stripes.size())};
   if (!cloud.organised()) return stripes;
@@ -78,10 +78,10 @@ PlateStripes plate_stripes(const ScanCloud& cloud, const JointPlate& plate, cons
     const auto next = std::lower_bound(point, plate.points.end(), end);
     run.reserve(static_cast<std::size_t>(next - point));
     std::copy_if(point, next, std::back_inserter(run), [&](int i) {
-      return reach(cloud.points[i]) > tolerance &&
-             std::abs(plate.plane.signed_distance(cloud.points[i])) <= tolerance;
+      return reach(cloud.points[i]) > scales.tolerance &&
+             std::abs(plate.plane.signed_distance(cloud.points[i])) <= scales.tolerance;
     });
-    drop_askew(cloud, plate.plane, noise, run);
+    drop_askew(cloud, plate.plane, scales.noise, run);
     point = next;
   }
 
@@ -96,7 +96,7 @@ PlateStripes plate_stripes(const ScanCloud& cloud, const JointPlate& plate, cons
     std::sort(reaches.begin(), reaches.end());
     const ScanStripe& stripe = cloud.stripes[k];
     for (int i = stripe.first; i < stripe.first + stripe.count; ++i)
-      if (const auto through = seen_through(cloud, plate.plane, i, tolerance))
+      if (const auto through = seen_through(cloud, plate.plane, i, scales.tolerance))
         behind.push_back(reach(*through));
     for (std::size_t j = 1; j < reaches.size(); ++j) {
       const double from = reaches[j - 1], to = reaches[j];
@@ -114,9 +114,9 @@ PlateStripes plate_stripes(const ScanCloud& cloud, const JointPlate& plate, cons
 
 std::array<PlateStripes, 2> plate_stripes(const ScanCloud& cloud,
                                           const std::array<JointPlate, 2>& plates, const Line& line,
-                                          double tolerance, double noise) {
-  return {plate_stripes(cloud, plates[0], plates[1], line, tolerance, noise),
-          plate_stripes(cloud, plates[1], plates[0], line, tolerance, noise)};
+                                          const Scales& scales) {
+  return {plate_stripes(cloud, plates[0], plates[1], line, scales),
+          plate_stripes(cloud, plates[1], plates[0], line, scales)};
 }
 
 }  // namespace arcstart::seam_finding

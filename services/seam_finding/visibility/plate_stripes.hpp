@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "services/seam_finding/model/plate.hpp"
+#include "services/seam_finding/model/scales.hpp"
 #include "services/seam_finding/model/scan_cloud.hpp"
 
 namespace arcstart::seam_finding {
@@ -24,13 +25,12 @@ struct PlateStripes {
   double reach = 0;
 };
 
-// The plates must outlive what is returned. tolerance: of a point's distance from the plate; noise:
-// of it, standard deviation; mm.
+// The plates must outlive what is returned.
 PlateStripes plate_stripes(const ScanCloud& cloud, const JointPlate& plate, const JointPlate& other,
-                           const Line& line, double tolerance, double noise);
+                           const Line& line, const Scales& scales);
 std::array<PlateStripes, 2> plate_stripes(const ScanCloud& cloud,
                                           const std::array<JointPlate, 2>& plates, const Line& line,
-                                          double tolerance, double noise);
+                                          const Scales& scales);
 
 // Where the line of sight to a point behind the plate meets the plate's plane; nothing for a point
 // that is not behind it, or that is seen along the plane.

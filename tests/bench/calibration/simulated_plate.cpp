@@ -7,13 +7,12 @@
 #include <opencv2/core.hpp>
 #include <opencv2/imgcodecs.hpp>
 
+#include "common/geometry.hpp"
 #include "services/calibration/files/view_detection.hpp"
 #include "services/cell_simulator/base/random_stream.hpp"
 
 namespace arcstart::test {
 namespace {
-
-constexpr double kDegree = EIGEN_PI / 180;
 
 Eigen::Matrix3d turn(double degrees, const Eigen::Vector3d& axis) {
   return Eigen::AngleAxisd(degrees * kDegree, axis).toRotationMatrix();

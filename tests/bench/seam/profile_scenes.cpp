@@ -63,9 +63,9 @@ void bench_profiles(int seeds, const SeedsOfRow& wanted, nlohmann::json& json) {
       {"short_base", {.tool = true, .base_overhang = -10}, {}},
       {"tee75", {.tilt_deg = 75}, {}},
       {"tee105", {.tilt_deg = 105}, {}},
-      {"m1", tool, {.thin = 1}, true},
-      {"m5", tool, {.thin = 5}},
-      {"m20", tool, {.thin = 20}},
+      {"m1", tool, {.downsample = 1}, true},
+      {"m5", tool, {.downsample = 5}},
+      {"m20", tool, {.downsample = 20}},
       {"v10", tool, {.pitch = 0.72}, true},
       {"v100", tool, {.pitch = 7.2}},
       {"lap", {.joint = "lap"}, {.bends = true}, false, "any"},
@@ -100,9 +100,9 @@ void bench_background(int seeds, nlohmann::json& json) {
   fmt::print("{:>3} {:>5} {:>8} {:>8} | {:>8} {:>8}\n", "M", "mm/s", "left", "lost", "left",
              "lost");
   for (const auto& [speed, pitch] : {std::pair(50, 3.6), std::pair(10, 0.72)})
-    for (const int thin : {1, 5, 15}) {
+    for (const int downsample : {1, 5, 15}) {
       ScanChoice choice;
-      choice.thin = thin, choice.pitch = pitch;
+      choice.downsample = downsample, choice.pitch = pitch;
       double counts[2][2] = {}, all[2] = {};  // rule; table left, workpiece lost
       for (int seed = 1; seed <= seeds; ++seed) {
         const auto number = static_cast<std::uint64_t>(seed);
@@ -124,13 +124,13 @@ void bench_background(int seeds, nlohmann::json& json) {
             counts[rule][table ? 0 : 1] += rules[rule]->contains(work.cloud.points[i]) != table;
         }
       }
-      const std::string name = fmt::format("background.{}.{}", thin, speed);
+      const std::string name = fmt::format("background.{}.{}", downsample, speed);
       json[name + ".n"] = seeds;
       json[name + ".leak"] = counts[0][0] / all[0];
       json[name + ".lost"] = counts[0][1] / all[1];
       json[name + ".paper_leak"] = counts[1][0] / all[0];
       json[name + ".paper_lost"] = counts[1][1] / all[1];
-      fmt::print("{:>3} {:>5} {:>8.2f} {:>8.2f} | {:>8.2f} {:>8.2f}\n", thin, speed,
+      fmt::print("{:>3} {:>5} {:>8.2f} {:>8.2f} | {:>8.2f} {:>8.2f}\n", downsample, speed,
                  100 * counts[0][0] / all[0], 100 * counts[0][1] / all[1],
                  100 * counts[1][0] / all[0], 100 * counts[1][1] / all[1]);
       std::fflush(stdout);

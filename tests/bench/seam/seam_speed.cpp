@@ -69,7 +69,7 @@ void paper_in_pcl(const seam_finding::ScanCloud& empty, const seam_finding::Scan
 struct Row {
   const char* name;
   int points;
-  int thin;
+  int downsample;
   double pitch;  // where the search for so many points begins; mm
   int runs;
   bool while_scanning;
@@ -84,7 +84,7 @@ Scans scans_of(const Row& row) {
   const synthetic::Scene scene = synthetic::make_scene({.tool = true}, 3);
   synthetic::Scene cell = scene;
   cell.boxes.clear();
-  synthetic::ScanChoice choice{.pitch = row.pitch, .thin = row.thin};
+  synthetic::ScanChoice choice{.pitch = row.pitch, .downsample = row.downsample};
   Scans scans{make_scan(cell, choice, 1).cloud, make_scan(scene, choice, 2).cloud};
   if (std::abs(scans.work.size() - row.points) < row.points / 50) return scans;
   choice.pitch *= static_cast<double>(scans.work.size()) / row.points;

@@ -3,14 +3,13 @@
 #include <catch2/catch.hpp>
 #include <numbers>
 
+#include "common/geometry.hpp"
 #include "services/cell_simulator/base/random_stream.hpp"
 
 using namespace arcstart;
 using namespace arcstart::cell_simulator;
 
 namespace {
-
-constexpr double kDegree = std::numbers::pi / 180;
 
 Joints radians(std::array<double, 6> degrees) {
   for (double& angle : degrees) angle *= kDegree;

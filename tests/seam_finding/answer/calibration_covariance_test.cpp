@@ -124,7 +124,7 @@ TEST_CASE("the systematic deviation of a start is how calibrations that err scat
   SeenPoint point{pixels[nearest].x(), pixels[nearest].y(), RigidTransform::Identity(),
                   kSpeed * Eigen::Vector3d::UnitX()};
   point.T_base_tool.translation() = cloud.stripes[cloud.origins[nearest].stripe].tool_position;
-  const auto predicted = systematic_covariance(truth, point);
+  const auto predicted = calibration_covariance(truth, point);
   REQUIRE(predicted);
 
   std::mt19937 engine(7);
@@ -146,5 +146,5 @@ TEST_CASE("the systematic deviation of a start is how calibrations that err scat
 }
 
 TEST_CASE("without the calibration's covariance nothing is said of systematic deviations") {
-  CHECK_FALSE(systematic_covariance(Calibration{}, {}));
+  CHECK_FALSE(calibration_covariance(Calibration{}, {}));
 }

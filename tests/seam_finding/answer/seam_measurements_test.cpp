@@ -42,7 +42,7 @@ TEST_CASE("a straight seam is a line, and a tack weld on it is seen where it lie
   const Made made = make([](double) { return 0.0; }, true);
   const auto places = survey_seam(made.cloud, made.plates, made.line, 0, 100, 2);
   REQUIRE(places.size() == 50);
-  for (const SurveyPlace& place : places) {
+  for (const SeamMeasurement& place : places) {
     CHECK(place.tack == (place.along > 40 && place.along < 52));
     CHECK(place.residual == Approx(0).margin(1e-9));
   }

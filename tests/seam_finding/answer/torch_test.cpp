@@ -10,8 +10,6 @@ using namespace arcstart::seam_finding;
 
 namespace {
 
-constexpr double kDegree = M_PI / 180;
-
 double degrees_between(const Eigen::Vector3d& a, const Eigen::Vector3d& b) {
   return angle_between(a, b) / kDegree;
 }

@@ -47,10 +47,10 @@ Pair scan_pair(const ScanChoice& of_empty, const ScanChoice& of_work, std::uint6
 
 TEST_CASE("surface rule: table left and workpiece lost, whatever thinning, speed and phase") {
   // Thinning M, way between stripes at 14 frames a second: 50, 10 and 25 mm/s.
-  const auto [thin, pitch] = GENERATE(table<int, double>(
+  const auto [downsample, pitch] = GENERATE(table<int, double>(
       {{1, 3.6}, {5, 3.6}, {15, 3.6}, {20, 3.6}, {15, 0.72}, {5, 0.72}, {15, 1.8}, {20, 1.8}}));
   ScanChoice choice;
-  choice.thin = thin;
+  choice.downsample = downsample;
   choice.pitch = pitch;
   double leak = 0, lost = 0;
   constexpr int kSeeds = 4;
@@ -60,8 +60,8 @@ TEST_CASE("surface rule: table left and workpiece lost, whatever thinning, speed
     leak += found.leak / kSeeds;
     lost += found.lost / kSeeds;
   }
-  INFO("M " << thin << ", stripes " << pitch << " mm apart: leak " << 100 * leak << " %, lost "
-            << 100 * lost << " %");
+  INFO("M " << downsample << ", stripes " << pitch << " mm apart: leak " << 100 * leak
+            << " %, lost " << 100 * lost << " %");
   CHECK(leak <= 0.01);
   CHECK(lost <= 0.015);
 }
@@ -83,7 +83,7 @@ TEST_CASE("the paper's rule leaks the table between stripes 3.6 mm apart, and ho
   const Shares far = shares(coarse.work, NeighbourBackground(coarse.empty.cloud, 3, 1.5));
   CHECK(far.leak > 0.6);
   choice.pitch = 0.72;
-  choice.thin = 5;
+  choice.downsample = 5;
   const Pair fine = scan_pair(choice, choice, 2);
   const Shares near = shares(fine.work, NeighbourBackground(fine.empty.cloud, 3, 1.5));
   CHECK(near.leak < 0.02);

@@ -24,7 +24,7 @@ struct Bench {
   std::array<JointPlate, 2> plates;
   Line line{{0, 0, 0}, {1, 0, 0}};
 
-  Course run() {
+  Coverage run() {
     cloud = {};
     plates = {};
     plates[0].plane = {{0, 0, 1}, 0};
@@ -49,7 +49,7 @@ struct Bench {
         }
       end_stripe(cloud, ScanStripe::Seen::kSeen, tool + Eigen::Vector3d(0, 200, 0), tool);
     }
-    return find_course(cloud, plates, line, {kPitch, 0.5, 20});
+    return find_coverage(cloud, plates, line, {kPitch, 0.5, 20});
   }
 };
 
@@ -66,7 +66,7 @@ TEST_CASE("the seam begins and ends where both plates do, to half a spacing") {
       {{0.0, 0.0}, {0.3, 0.7}, {-0.3, 1.9}, {0.6, 2.2}, {0.3, 3.1}, {-0.2, 0.4}}));
   bench.slant = slant;
   bench.phase = phase;
-  const Course course = bench.run();
+  const Coverage course = bench.run();
   INFO("slant " << slant << ", phase " << phase);
   // Points up to a step from the line stand for the crossing: the slant shifts them by so much.
   const double shift = std::abs(slant) * 3.5;
@@ -84,7 +84,7 @@ TEST_CASE("a plate that begins earlier or ends later is no seam") {
   Bench bench;
   bench.from = {20, 47};
   bench.to = {101, 130};
-  Course course = bench.run();
+  Coverage course = bench.run();
   CHECK(std::abs(course.begin - 47) < 3);
   CHECK(std::abs(course.end - 101) < 3);
   bench.from = {47, 20};
@@ -98,7 +98,7 @@ TEST_CASE("missing stripes before the start are told and widen the bracket") {
   Bench bench;
   bench.slant = 0;
   bench.missing = {5};  // crosses at 18.0; the plates begin at 20, stripe 6 crosses at 21.6
-  Course course = bench.run();
+  Coverage course = bench.run();
   CHECK(course.missing_before == 1);
   CHECK(course.begin == Approx((4 * kPitch + 6 * kPitch) / 2));
   bench.missing = {3, 4, 5};
@@ -112,7 +112,7 @@ TEST_CASE("missing stripes before the start are told and widen the bracket") {
 TEST_CASE("a stripe that was lost within the seam interrupts nothing") {
   Bench bench;
   bench.missing = {12, 13, 20};
-  const Course course = bench.run();
+  const Coverage course = bench.run();
   CHECK(std::abs(course.begin - 20) < 3);
   CHECK(std::abs(course.end - 120) < 3);
   CHECK(course.missing_before == 0);
@@ -122,7 +122,7 @@ TEST_CASE("images that showed nothing count as seen where there are three in a r
   Bench bench;
   bench.slant = 0;
   bench.empty = {0, 1, 2, 3, 4, 5};  // nothing lies before the plates
-  Course course = bench.run();
+  Coverage course = bench.run();
   CHECK_FALSE(course.begins_outside);
   CHECK(course.missing_before == 0);
   CHECK(course.begin == Approx(5.5 * kPitch));
@@ -137,7 +137,7 @@ TEST_CASE("a seam that runs on where the scan begins or ends says so") {
   CHECK(bench.run().begins_outside);
   bench.from = {20, 20};
   bench.to = {500, 500};
-  const Course course = bench.run();
+  const Coverage course = bench.run();
   CHECK_FALSE(course.begins_outside);
   CHECK(course.ends_outside);
 }
@@ -150,9 +150,9 @@ TEST_CASE("an interruption is bridged when short, and ends the seam when long") 
     std::erase_if(plates[1].points, [&](int i) {
       return bench.cloud.points[i].x() > low && bench.cloud.points[i].x() < high;
     });
-    return find_course(bench.cloud, plates, bench.line, {kPitch, 0.5, 20});
+    return find_coverage(bench.cloud, plates, bench.line, {kPitch, 0.5, 20});
   };
-  Course course = without(60, 72);
+  Coverage course = without(60, 72);
   CHECK(std::abs(course.begin - 20) < 3);
   CHECK(std::abs(course.end - 120) < 3);
   CHECK(course.covered < 95);
@@ -172,7 +172,7 @@ TEST_CASE("points of a plate behind the other plate are no part of the seam") {
       bench.cloud.origins.push_back({k, 2, false, 0});
       bench.plates[0].points.push_back(bench.cloud.size() - 1);
     }
-  const Course course = find_course(bench.cloud, bench.plates, bench.line, {kPitch, 0.5, 20});
+  const Coverage course = find_coverage(bench.cloud, bench.plates, bench.line, {kPitch, 0.5, 20});
   CHECK(std::abs(course.begin - 60) < 3);
 }
 
@@ -187,7 +187,7 @@ TEST_CASE("points that may be either plate's do not make the other one") {
   for (const int i : bench.plates[1].points)
     if (bench.cloud.points[i].z() < 0.5) plates[0].points.push_back(i);
   std::sort(plates[0].points.begin(), plates[0].points.end());
-  const Course course = find_course(bench.cloud, plates, bench.line, {kPitch, 0.5, 20});
+  const Coverage course = find_coverage(bench.cloud, plates, bench.line, {kPitch, 0.5, 20});
   CHECK(std::abs(course.begin - 60) < 3);
 }
 
@@ -206,7 +206,7 @@ TEST_CASE("without stripes the course is where both plates leave no wide gap") {
   };
   add(0, 0, 100);
   add(1, 30, 85);
-  const Course course = find_course(cloud, plates, {{0, 0, 0}, {1, 0, 0}}, {1.5, 0.5, 20});
+  const Coverage course = find_coverage(cloud, plates, {{0, 0, 0}, {1, 0, 0}}, {1.5, 0.5, 20});
   CHECK(std::abs(course.begin - 30) < 2);
   CHECK(std::abs(course.end - 85) < 3);
   CHECK_FALSE(course.begins_outside);
@@ -215,7 +215,7 @@ TEST_CASE("without stripes the course is where both plates leave no wide gap") {
 TEST_CASE("centroid of the first points: of exact plates a known place") {
   Bench bench;
   bench.slant = 0;
-  const Course course = bench.run();
+  const Coverage course = bench.run();
   // Of the first stripe both plates have points within 6 mm: all of them lie at its crossing.
   const double first = std::ceil(20 / kPitch) * kPitch;
   CHECK(centroid_of_first(bench.cloud, bench.plates, bench.line, course, 4) == Approx(first));

@@ -18,7 +18,7 @@ TEST_CASE("weighted sums are those of the formula, for any number of points") {
     std::vector<float> a(whole_registers(count)), b(a.size()), h(a.size(), 1e9f);
     REQUIRE(a.size() % 16 == 0);
     REQUIRE(a.size() < count + 16);
-    TukeySums judge;
+    BiweightSums judge;
     for (std::size_t i = 0; i < count; ++i) {
       a[i] = place(engine), b[i] = place(engine), h[i] = noise(engine);
       const double r = h[i] - offset - along * a[i] - across * b[i];
@@ -28,8 +28,8 @@ TEST_CASE("weighted sums are those of the formula, for any number of points") {
       judge.aa += w * a[i] * a[i], judge.ab += w * a[i] * b[i], judge.bb += w * b[i] * b[i];
       judge.ra += w * r * a[i], judge.rb += w * r * b[i];
     }
-    const TukeySums sums =
-        tukey_sums({a.data(), b.data(), h.data(), a.size()}, offset, along, across, limit);
+    const BiweightSums sums =
+        biweight_sums({a.data(), b.data(), h.data(), a.size()}, offset, along, across, limit);
     // Of terms that may cancel: relative to how large they are.
     const auto n = static_cast<double>(count);
     CHECK(sums.w == Approx(judge.w).margin(1e-5 * n));

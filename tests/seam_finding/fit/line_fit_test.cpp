@@ -13,11 +13,11 @@ TEST_CASE("a border is the line through its places, outliers aside, with its own
   for (unsigned seed = 1; seed <= 200; ++seed) {
     std::mt19937 engine(seed);
     std::normal_distribution<double> noise(0, kNoise);
-    std::vector<BorderPlace> places;
+    std::vector<LinePlace> places;
     for (int i = 0; i < 25; ++i)
       places.push_back({i * 4.0, kAt + kSlope * i * 4.0 + noise(engine), 0, kNoise});
     places[7].across += 6, places[18].across -= 4;
-    const auto fit = fit_border(places, 0.1);
+    const auto fit = fit_line(places, 0.1);
     REQUIRE(fit);
     CHECK(fit->places <= 24);
     within +=
@@ -29,18 +29,18 @@ TEST_CASE("a border is the line through its places, outliers aside, with its own
 }
 
 TEST_CASE("points on a cut give the border at the height wanted") {
-  std::vector<BorderPlace> places;
+  std::vector<LinePlace> places;
   for (int i = 0; i < 20; ++i)
     for (const double height : {-1.0, -3.0, -5.0})
       places.push_back({i * 4.0, 2 + 0.577 * height, height, 0.1});
-  const auto free = fit_border(places, 3);
+  const auto free = fit_line(places, 3);
   REQUIRE(free);
   CHECK(free->lean == Approx(0.577).margin(0.01));
   CHECK(free->across_at(40) == Approx(2).margin(0.02));
 }
 
 TEST_CASE("too few places, or all at one place along, give none") {
-  CHECK_FALSE(fit_border({}, 1));
-  CHECK_FALSE(fit_border({{0, 0}, {1, 0}, {2, 0}}, 1));
-  CHECK_FALSE(fit_border(std::vector<BorderPlace>(10, {5, 1}), 1));
+  CHECK_FALSE(fit_line({}, 1));
+  CHECK_FALSE(fit_line({{0, 0}, {1, 0}, {2, 0}}, 1));
+  CHECK_FALSE(fit_line(std::vector<LinePlace>(10, {5, 1}), 1));
 }

@@ -44,8 +44,8 @@ std::vector<SeenPlace> draw(const Drawing& drawing) {
   return places;
 }
 
-NarrowGapSearch search_for(const Drawing& drawing) {
-  NarrowGapSearch search;
+ButtGapSearch search_for(const Drawing& drawing) {
+  ButtGapSearch search;
   search.across = 0.4, search.slope = drawing.slope - 0.01;  // told badly
   search.sight = drawing.sight;
   search.noise = drawing.noise;
@@ -61,7 +61,7 @@ TEST_CASE("a narrow gap's borders are where its rounded sawtooth says, from eith
         Drawing drawing;
         drawing.sight = sight, drawing.width = width, drawing.rounding = rounding;
         INFO("sight " << sight << ", width " << width << ", rounding " << rounding);
-        const auto borders = fit_narrow_gap(draw(drawing), search_for(drawing));
+        const auto borders = fit_butt_gap(draw(drawing), search_for(drawing));
         REQUIRE(borders);
         const auto& [low, high] = *borders;
         CHECK(low.across_at(0) == Approx(drawing.from).margin(0.06));
@@ -76,26 +76,26 @@ TEST_CASE("a narrow gap's borders are where its rounded sawtooth says, from eith
 TEST_CASE("plates without a gap, and gaps that are none, give nothing") {
   Drawing drawing;
   drawing.width = 0;
-  CHECK_FALSE(fit_narrow_gap(draw(drawing), search_for(drawing)));
-  CHECK_FALSE(fit_narrow_gap({}, search_for(drawing)));
+  CHECK_FALSE(fit_butt_gap(draw(drawing), search_for(drawing)));
+  CHECK_FALSE(fit_butt_gap({}, search_for(drawing)));
 
   // Strays below the plates, here and there.
   auto places = draw(drawing);
   synthetic::Random random{std::mt19937_64(5)};
   for (std::size_t i = 0; i < places.size(); i += 9) places[i].height = random.between(-3, -0.3);
-  CHECK_FALSE(fit_narrow_gap(places, search_for(drawing)));
+  CHECK_FALSE(fit_butt_gap(places, search_for(drawing)));
 
   drawing.width = 2;
-  NarrowGapSearch search = search_for(drawing);
+  ButtGapSearch search = search_for(drawing);
   search.widest = 1.5;
-  CHECK_FALSE(fit_narrow_gap(draw(drawing), search));
+  CHECK_FALSE(fit_butt_gap(draw(drawing), search));
 }
 
 TEST_CASE("strays do not move a narrow gap's borders") {
   Drawing drawing;
   auto places = draw(drawing);
   for (std::size_t i = 0; i < places.size(); i += 20) places[i].height += i % 40 == 0 ? 8 : -8;
-  const auto borders = fit_narrow_gap(places, search_for(drawing));
+  const auto borders = fit_butt_gap(places, search_for(drawing));
   REQUIRE(borders);
   CHECK((*borders)[0].across_at(0) == Approx(drawing.from).margin(0.1));
   CHECK((*borders)[1].across_at(0) == Approx(drawing.from + drawing.width).margin(0.1));

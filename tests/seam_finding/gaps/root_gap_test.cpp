@@ -19,7 +19,7 @@ constexpr double kPixel = 0.12;  // across the line of sight; mm
 struct Drawing {
   double gap = 1;         // mm
   double rounding = 1.5;  // standard deviation of the smoothing in the image; px
-  int thin = 1;
+  int downsample = 1;
   bool bends = false;        // all centres within 2 mm of the corner are kept
   bool parted = false;       // at the gap
   bool under_is_lit = true;  // where parted
@@ -82,7 +82,7 @@ Corner draw(const Drawing& drawing) {
       const bool last = i + 1 == way.size() || (drawing.parted && way[i].plate != way[i + 1].plate);
       if (first) number = 0;
       const bool bend = drawing.bends && std::abs(way[i].across) < 2;
-      if (!first && !last && !bend && number % drawing.thin != 0) continue;
+      if (!first && !last && !bend && number % drawing.downsample != 0) continue;
       corner.plates[way[i].plate].points.push_back(corner.cloud.size());
       corner.cloud.points.push_back(Eigen::Vector3d(3.0 * stripe, 0, 0) + way[i].across * across +
                                     (way[i].depth + random.normal(drawing.noise)) * sight);
@@ -133,10 +133,10 @@ TEST_CASE("a root gap is told through the rounding of the stripe, whichever plat
   CHECK(fine.farthest < 2 * fine.deviation);
   CHECK(fine.deviation < 0.6);
   // Of a stripe that is thinned out the bends are enough.
-  const Measured thin =
-      measure({.gap = gap, .thin = 15, .bends = true, .upright_deg = angle, .swapped = swapped});
-  CHECK(thin.stripes == 20);
-  CHECK(thin.mean == Approx(fine.mean).margin(0.05));
+  const Measured downsample = measure(
+      {.gap = gap, .downsample = 15, .bends = true, .upright_deg = angle, .swapped = swapped});
+  CHECK(downsample.stripes == 20);
+  CHECK(downsample.mean == Approx(fine.mean).margin(0.05));
 }
 
 TEST_CASE("of a closed joint the gap given is none, within its deviation") {
@@ -147,14 +147,14 @@ TEST_CASE("of a closed joint the gap given is none, within its deviation") {
 }
 
 TEST_CASE("a wide gap parts the light: the standing plate's end tells it") {
-  const Measured measured = measure({.gap = 3, .thin = 15, .parted = true});
+  const Measured measured = measure({.gap = 3, .downsample = 15, .parted = true});
   CHECK(measured.stripes == 20);
   CHECK(measured.mean == Approx(3).margin(0.15));  // a pixel is 0.19 mm on the upright
   CHECK(measured.farthest < 2 * measured.deviation);
 }
 
 TEST_CASE("no gap is told where the corner was not seen") {
-  CHECK(measure({.thin = 15}).stripes == 0);  // between the centres kept
+  CHECK(measure({.downsample = 15}).stripes == 0);  // between the centres kept
   // Light that is lost before the upright is no gap.
   CHECK(measure({.gap = 3, .parted = true, .under_is_lit = false}).stripes == 0);
   CHECK(measure({.gap = 9, .parted = true}).stripes == 0);

@@ -131,7 +131,7 @@ TEST_CASE("thickness, gap and groove are measured") {
   CHECK(std::abs(butted.gap - 1) < 2.5 * butted.gap_deviation);
   CHECK(butted.gap_deviation < 0.8);  // points 1.4 mm apart
   int measured = 0;
-  for (const SurveyPlace& place : butted.stations) measured += place.gap >= 0;
+  for (const SeamMeasurement& place : butted.stations) measured += place.gap >= 0;
   CHECK(2 * measured > static_cast<int>(butted.stations.size()));
 
   // With the stripes' bends kept the gap is known far better than points lie apart.
@@ -174,7 +174,7 @@ TEST_CASE("a tee's and a lap's root gap is measured by station, and is no lack o
   CHECK(result.gap_deviation > 0.05);
   CHECK(result.gap_deviation < 0.5);
   int measured = 0;
-  for (const SurveyPlace& place : result.stations) measured += place.gap >= 0;
+  for (const SeamMeasurement& place : result.stations) measured += place.gap >= 0;
   CHECK(2 * measured > static_cast<int>(result.stations.size()));
 }
 

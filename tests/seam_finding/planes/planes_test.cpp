@@ -3,6 +3,7 @@
 #include <catch2/catch.hpp>
 #include <random>
 
+#include "common/geometry.hpp"
 #include "services/seam_finding/cloud/connected_components.hpp"
 #include "services/seam_finding/fit/plane_fit.hpp"
 #include "tests/seam_finding/support/pcl_judge.hpp"
@@ -11,8 +12,6 @@ using namespace arcstart;
 using namespace arcstart::seam_finding;
 
 namespace {
-
-constexpr double kDegree = M_PI / 180;
 
 // A rectangle about a middle, spanned by two directions, with noise across it.
 void add_rectangle(std::vector<Eigen::Vector3d>& points, const Eigen::Vector3d& middle,

@@ -59,8 +59,8 @@ bool same_as_at_once(RunningScan& running, const CollectedScan& scan,
   REQUIRE(ready.cloud.size() == judge.cloud.size());
   REQUIRE(ready.cloud.stripes.size() == judge.cloud.stripes.size());
   bool same = ready.cloud.points == judge.cloud.points &&
-              ready.division.background == judge.division.background &&
-              ready.division.left == judge.division.left;
+              ready.segmentation.background == judge.segmentation.background &&
+              ready.segmentation.workpiece == judge.segmentation.workpiece;
   for (std::size_t k = 0; k < judge.cloud.stripes.size(); ++k) {
     const ScanStripe &a = ready.cloud.stripes[k], &b = judge.cloud.stripes[k];
     same = same && a.seen == b.seen && a.first == b.first && a.count == b.count &&

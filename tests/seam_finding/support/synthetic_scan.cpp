@@ -5,12 +5,12 @@
 #include <limits>
 #include <optional>
 
+#include "common/geometry.hpp"
 #include "tests/seam_finding/support/synthetic_random.hpp"
 
 namespace arcstart::synthetic {
 namespace {
 
-constexpr double kDegree = M_PI / 180;
 constexpr double kInfinity = std::numeric_limits<double>::infinity();
 
 double table_height(const Scene& scene, double x, double y) {
@@ -173,7 +173,7 @@ SyntheticScan make_scan(const Scene& scene, const ScanChoice& choice, std::uint6
       segment.back() = light_end(segment[segment.size() - 2], segment.back(), last, last + 1);
       for (std::size_t i = 0; i < segment.size(); ++i) {
         const bool end = i == 0 || i + 1 == segment.size();
-        const bool kept = end || i % static_cast<std::size_t>(choice.thin) == 0 ||
+        const bool kept = end || i % static_cast<std::size_t>(choice.downsample) == 0 ||
                           (choice.bends && turns(segment[i - 1], segment[i], segment[i + 1]));
         if (!kept) continue;
         // A centre that is off across the stripe lies elsewhere in the laser's plane.

@@ -49,9 +49,9 @@ struct SceneChoice {
 Scene make_scene(const SceneChoice& choice, std::uint64_t seed);
 
 struct ScanChoice {
-  double pitch = 3.6;  // tool's way between stripes; mm
-  int thin = 15;       // M: every M-th centre of a segment, and its last
-  bool bends = false;  // also those at which it turns by more than 20 deg
+  double pitch = 3.6;   // tool's way between stripes; mm
+  int downsample = 15;  // M: every M-th centre of a segment, and its last
+  bool bends = false;   // also those at which it turns by more than 20 deg
   double noise =
       0.1;  // of each point along the laser's beam, as an error across the stripe moves it; mm
   double end_noise = 0.2;       // of a segment's end along the stripe; px

@@ -1,12 +1,11 @@
 #include <cmath>
 
+#include "common/geometry.hpp"
 #include "tests/seam_finding/support/synthetic_random.hpp"
 #include "tests/seam_finding/support/synthetic_scan.hpp"
 
 namespace arcstart::synthetic {
 namespace {
-
-constexpr double kDegree = M_PI / 180;
 
 Box standing_box(const Eigen::Isometry3d& frame, const Eigen::Vector3d& corner,
                  const Eigen::Vector3d& size) {

@@ -50,7 +50,7 @@ TEST_CASE("a seam goes on behind what hides it, however long, and ends where a p
     const Bench bench =
         hidden ? bench_of({box_at({0, -8, 10}, {120, 0, 50}), box_at({40, 3, 10}, {80, 20, 45})})
                : bench_of({box_at({0, -8, 10}, {35, 0, 50}), box_at({75, -8, 10}, {120, 0, 50})});
-    const Course course = find_course(bench.cloud, bench.plates, bench.line, {3.6, 0.6, 20});
+    const Coverage course = find_coverage(bench.cloud, bench.plates, bench.line, {3.6, 0.6, 20});
     INFO(hidden);
     CHECK(std::abs(course.end - 120) < 4);
     if (hidden)
@@ -75,7 +75,7 @@ TEST_CASE("a reflection in one of the stripes behind what hides a seam does not 
     break;
   }
   REQUIRE(spoilt >= 4);
-  const Course course = find_course(bench.cloud, bench.plates, bench.line, {3.6, 0.6, 20});
+  const Coverage course = find_coverage(bench.cloud, bench.plates, bench.line, {3.6, 0.6, 20});
   CHECK(std::abs(course.begin) < 4);
   CHECK(std::abs(course.end - 120) < 4);
   const auto stripes = plate_stripes(bench.cloud, bench.plates, bench.line, 0.6, 0.05);
@@ -86,7 +86,7 @@ TEST_CASE("a start that is hidden lies where both plates are seen to begin beyon
   // A box before the seam from its begin on, over which both plates are seen.
   const Bench bench =
       bench_of({box_at({0, -8, 10}, {120, 0, 50}), box_at({-1, 2, 10}, {30, 14, 22})});
-  const Course course = find_course(bench.cloud, bench.plates, bench.line, {3.6, 0.6, 20});
+  const Coverage course = find_coverage(bench.cloud, bench.plates, bench.line, {3.6, 0.6, 20});
   REQUIRE(course.begin > 20);
   const auto stripes = plate_stripes(bench.cloud, bench.plates, bench.line, 0.6, 0.05);
   const SeamEnd start =
@@ -111,7 +111,7 @@ TEST_CASE("a thing as high as a plate that touches its end does not prolong it")
   for (const double from : {22.0, 28.0, 35.0, 45.0}) {
     const Bench bench =
         bench_of({box_at({0, -8, 10}, {150, 0, 50}), box_at({120, from, 0}, {200, 60, 10})});
-    const Course course = find_course(bench.cloud, bench.plates, bench.line, {3.6, 0.6, 20});
+    const Coverage course = find_coverage(bench.cloud, bench.plates, bench.line, {3.6, 0.6, 20});
     const auto stripes = plate_stripes(bench.cloud, bench.plates, bench.line, 0.6, 0.05);
     const SeamEnd end =
         find_end(bench.cloud, bench.plates, course, stripes, SeamSide::kEnd, {0.6, 0.02, 0});

@@ -1,4 +1,4 @@
-#include "services/seam_finding/cloud/thinned_cloud.hpp"
+#include "services/seam_finding/cloud/downsampled_cloud.hpp"
 
 #include <catch2/catch.hpp>
 #include <numeric>
@@ -42,37 +42,37 @@ TEST_CASE("of a segment are left its ends, marked ends, and points 1.5 mm apart"
   cloud.origins[26 + 6].segment_end = true;
   end_stripe(cloud, ScanStripe::Seen::kSeen);
 
-  ThinnedCloud thinned;
-  thin(cloud, thinned);
+  DownsampledCloud downsampled;
+  downsample(cloud, downsampled);
   // Four steps are the first way of 1.5 mm or more.
-  CHECK(thinned.places == std::vector<int>{0, 4, 8, 12, 16, 20, 22, 23, 25,  // two segments
-                                           26, 30, 32, 36});                 // 32 is marked
-  REQUIRE(thinned.cloud.size() == 13);
+  CHECK(downsampled.places == std::vector<int>{0, 4, 8, 12, 16, 20, 22, 23, 25,  // two segments
+                                               26, 30, 32, 36});                 // 32 is marked
+  REQUIRE(downsampled.cloud.size() == 13);
   for (int i = 0; i < 13; ++i) {
-    CHECK(thinned.cloud.points[i] == cloud.points[thinned.places[i]]);
-    CHECK(thinned.cloud.origins[i].stripe == cloud.origins[thinned.places[i]].stripe);
-    CHECK(thinned.cloud.origins[i].segment == cloud.origins[thinned.places[i]].segment);
+    CHECK(downsampled.cloud.points[i] == cloud.points[downsampled.places[i]]);
+    CHECK(downsampled.cloud.origins[i].stripe == cloud.origins[downsampled.places[i]].stripe);
+    CHECK(downsampled.cloud.origins[i].segment == cloud.origins[downsampled.places[i]].segment);
   }
-  REQUIRE(thinned.cloud.stripes.size() == 3);
-  CHECK(thinned.cloud.stripes[0].count == 9);
-  CHECK(thinned.cloud.stripes[0].camera_centre == Eigen::Vector3d(1, 2, 3));
-  CHECK(thinned.cloud.stripes[0].tool_position == Eigen::Vector3d(4, 5, 6));
-  CHECK(thinned.cloud.stripes[1].seen == ScanStripe::Seen::kMissing);
-  CHECK(thinned.cloud.stripes[2].first == 9);
-  CHECK(thinned.cloud.stripes[2].count == 4);
-  CHECK(thinned.is_less_than(cloud));
+  REQUIRE(downsampled.cloud.stripes.size() == 3);
+  CHECK(downsampled.cloud.stripes[0].count == 9);
+  CHECK(downsampled.cloud.stripes[0].camera_centre == Eigen::Vector3d(1, 2, 3));
+  CHECK(downsampled.cloud.stripes[0].tool_position == Eigen::Vector3d(4, 5, 6));
+  CHECK(downsampled.cloud.stripes[1].seen == ScanStripe::Seen::kMissing);
+  CHECK(downsampled.cloud.stripes[2].first == 9);
+  CHECK(downsampled.cloud.stripes[2].count == 4);
+  CHECK(downsampled.is_less_than(cloud));
 }
 
 TEST_CASE("a scan is thinned stripe by stripe as it is at once") {
   ScanCloud cloud;
-  ThinnedCloud growing, at_once;
+  DownsampledCloud growing, at_once;
   for (int stripe = 0; stripe < 5; ++stripe) {
     add_segment(cloud, 0, 20 + 7 * stripe, stripe);
     end_stripe(cloud, ScanStripe::Seen::kSeen);
-    thin(cloud, growing);
-    thin(cloud, growing);  // nothing new
+    downsample(cloud, growing);
+    downsample(cloud, growing);  // nothing new
   }
-  thin(cloud, at_once);
+  downsample(cloud, at_once);
   CHECK(growing.places == at_once.places);
   CHECK(growing.cloud.stripes.size() == 5);
 }
@@ -85,12 +85,12 @@ TEST_CASE(
     sparse.origins.push_back({0, 0, false, 0, 0});
   }
   end_stripe(sparse, ScanStripe::Seen::kSeen);
-  ThinnedCloud all, none;
-  thin(sparse, all);
+  DownsampledCloud all, none;
+  downsample(sparse, all);
   CHECK(all.places == range(0, 30));
   CHECK_FALSE(all.is_less_than(sparse));
   const ScanCloud loose = unorganised_cloud(sparse.points);
-  thin(loose, none);
+  downsample(loose, none);
   CHECK(none.places.empty());
   CHECK_FALSE(none.is_less_than(loose));
 }
@@ -106,21 +106,21 @@ TEST_CASE("a face of the thinned points is told in all points of the scan") {
   end_stripe(cloud, ScanStripe::Seen::kSeen);
   for (int i = 51; i < 101; ++i) cloud.points[i].z() = 5;
   cloud.points[21].z() = 3;  // a stray
-  ThinnedCloud thinned;
-  thin(cloud, thinned);
+  DownsampledCloud downsampled;
+  downsample(cloud, downsampled);
   std::vector<int> face;
-  for (int i = 0; i < thinned.cloud.size(); ++i)
-    if (thinned.cloud.points[i].z() == 0 && thinned.cloud.origins[i].segment == 0)
+  for (int i = 0; i < downsampled.cloud.size(); ++i)
+    if (downsampled.cloud.points[i].z() == 0 && downsampled.cloud.origins[i].segment == 0)
       face.push_back(i);
 
   const Plane plate{Eigen::Vector3d::UnitZ(), 0};
   const std::vector<int> truth =
       joined(joined(range(0, 21), range(22, 51)), range(101 + 21, 101 + 21 + 41));
-  CHECK(in_whole(cloud, thinned, face, plate, 0.5) == truth);
+  CHECK(upsampled(cloud, downsampled, face, plate, 0.5) == truth);
 
   // A thinned point of the face stays in it, whatever its distance from the plane.
   const Plane lower{Eigen::Vector3d::UnitZ(), 1};
   std::vector<int> own;
-  for (const int i : face) own.push_back(thinned.places[i]);
-  CHECK(in_whole(cloud, thinned, face, lower, 0.5) == own);
+  for (const int i : face) own.push_back(downsampled.places[i]);
+  CHECK(upsampled(cloud, downsampled, face, lower, 0.5) == own);
 }

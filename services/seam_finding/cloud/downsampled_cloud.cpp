@@ -1,4 +1,4 @@
-#include "services/seam_finding/cloud/thinned_cloud.hpp"
+#include "services/seam_finding/cloud/downsampled_cloud.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -15,8 +15,8 @@ bool same_segment(const ScanCloud& scan, int a, int b) {
 
 }  // namespace
 
-void thin(const ScanCloud& scan, ThinnedCloud& thinned) {
-  ScanCloud& few = thinned.cloud;
+void downsample(const ScanCloud& scan, DownsampledCloud& downsampled) {
+  ScanCloud& few = downsampled.cloud;
   const Eigen::Vector3d* points = scan.points.data();
   const PointOrigin* origins = scan.origins.data();
   for (std::size_t k = few.stripes.size(); k < scan.stripes.size(); ++k) {
@@ -32,23 +32,25 @@ void thin(const ScanCloud& scan, ThinnedCloud& thinned) {
       kept = &points[i];
       few.points.push_back(*kept);
       few.origins.push_back(origins[i]);
-      thinned.places.push_back(i);
+      downsampled.places.push_back(i);
     }
     end_stripe(few, stripe.seen, stripe.camera_centre, stripe.tool_position);
   }
 }
 
-std::vector<int> in_whole(const ScanCloud& scan, const ThinnedCloud& thinned,
-                          const std::vector<int>& points, const Plane& plane, double tolerance_mm) {
+std::vector<int> upsampled(const ScanCloud& scan, const DownsampledCloud& downsampled,
+                           const std::vector<int>& points, const Plane& plane,
+                           double tolerance_mm) {
   std::vector<int> whole;
   whole.reserve(scan.points.size() / 2);
   int taken = -1;  // the last one that was looked at
   for (const int point : points) {
-    const int own = thinned.places[point];
+    const int own = downsampled.places[point];
     const auto neighbour = [&](int step) {
       const int next = point + step;
-      return next >= 0 && next < thinned.cloud.size() && same_segment(thinned.cloud, point, next)
-                 ? thinned.places[next]
+      return next >= 0 && next < downsampled.cloud.size() &&
+                     same_segment(downsampled.cloud, point, next)
+                 ? downsampled.places[next]
                  : own;
     };
     const int from = neighbour(-1), to = neighbour(+1);

@@ -9,7 +9,7 @@
 
 namespace arcstart::seam_finding {
 
-struct ThinnedCloud {
+struct DownsampledCloud {
   ScanCloud cloud;
   std::vector<int> places;  // of its points in the whole scan, rising
 
@@ -22,11 +22,11 @@ struct ThinnedCloud {
 // Of each segment its two ends, what the profile marks as ends, and between them points no nearer
 // to each other than 1.5 mm. Goes on behind the last stripe that is thinned already: a scan can be
 // thinned stripe by stripe. Nothing of a cloud without stripes.
-void thin(const ScanCloud& scan, ThinnedCloud& thinned);
+void downsample(const ScanCloud& scan, DownsampledCloud& downsampled);
 
 // Of a face found among the thinned points the whole scan's: those points, and between and beside
 // them what lies on the plane. Rising.
-std::vector<int> in_whole(const ScanCloud& scan, const ThinnedCloud& thinned,
-                          const std::vector<int>& points, const Plane& plane, double tolerance_mm);
+std::vector<int> upsampled(const ScanCloud& scan, const DownsampledCloud& downsampled,
+                           const std::vector<int>& points, const Plane& plane, double tolerance_mm);
 
 }  // namespace arcstart::seam_finding

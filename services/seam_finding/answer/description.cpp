@@ -1,0 +1,96 @@
+#include "services/seam_finding/answer/description.hpp"
+
+#include <utility>
+
+#include "common/geometry.hpp"
+#include "services/seam_finding/answer/seam_measurements.hpp"
+#include "services/seam_finding/answer/torch.hpp"
+
+namespace arcstart::seam_finding {
+namespace {
+
+using Code = Reason::Code;
+
+constexpr double kStraight = 0.5;  // mm
+
+Reason remark_on(const SeamEnd& end, SeamSide side) {
+  const bool start = side == SeamSide::kBegin;
+  switch (end.visibility) {
+    case EndVisibility::kHidden:
+      return {start ? Code::kStartHidden : Code::kEndHidden};
+    case EndVisibility::kOutside:
+      return {start ? Code::kStartOutside : Code::kEndOutside};
+    case EndVisibility::kNotDetermined:
+      return {start ? Code::kStartUncertain : Code::kEndUncertain};
+    case EndVisibility::kSeen:
+      break;
+  }
+  if (end.by_edges) return {};
+  return {start ? Code::kStartBetweenStripes : Code::kEndBetweenStripes};
+}
+
+Reason remark_on_gap(const SeamResult& result) {
+  if (result.gap < 0) return {Code::kNoGap};
+  if (result.gap < 2 * result.gap_deviation) return {Code::kGapLikeNone};
+  return {};
+}
+
+// Mean over the stations, and its deviation: of the mean, not of a single station.
+void set_gap(SeamResult& result) {
+  double sum = 0, count = 0, deviation = 0;
+  for (const SeamMeasurement& place : result.stations)
+    if (place.gap >= 0) sum += place.gap, deviation += place.gap_deviation, ++count;
+  if (count == 0) return;
+  result.gap = sum / count;
+  result.gap_deviation = deviation / count;
+}
+
+}  // namespace
+
+SeamResult describe(Joint joint, Findings findings, const SeamFindingSettings& settings) {
+  SeamResult result;
+  const auto remark = [&](const Reason& reason) {
+    if (reason) result.remarks.push_back(reason);
+  };
+  result.verdict = SeamResult::Verdict::kFound;
+  result.joint_type = name_of(joint.type);
+  result.direction = joint.line.direction;
+  result.angle = joint.angle;
+  if (joint.type == JointType::kLap) result.thickness = joint.parallel->step;
+  if (joint.type == JointType::kV) result.groove_angle = joint.angle;
+  for (int j = 0; j < 2; ++j) {
+    result.normals[j] = joint.plates[j].plane.normal;
+    result.plates[j] = std::move(joint.plates[j].points);
+  }
+  const Coverage& course = joint.coverage;
+  if (course.missing_before > 0)
+    remark({Code::kMissingBeforeStart, static_cast<double>(course.missing_before)});
+  if (course.missing_after > 0)
+    remark({Code::kMissingAfterEnd, static_cast<double>(course.missing_after)});
+
+  const auto& [start, end] = findings.ends;
+  result.start = joint.line.at(start.along);
+  result.end = joint.line.at(end.along);
+  result.start_visibility = start.visibility;
+  result.end_visibility = end.visibility;
+  result.accuracy = findings.accuracy;
+  if (findings.with_stripes) {
+    remark(remark_on(start, SeamSide::kBegin));
+    remark(remark_on(end, SeamSide::kEnd));
+  }
+
+  result.stations = std::move(findings.stations);
+  set_gap(result);
+  result.polyline = polyline_through(result.stations, result.start, result.end, kStraight);
+  const double origin = joint.line.along(result.start);
+  for (SeamMeasurement& place : result.stations) place.along -= origin;
+  result.torch = torch_at(result.start, result.direction, findings.torch_faces,
+                          {findings.one_plane ? 0 : settings.torch_work_angle_deg * kDegree,
+                           settings.torch_travel_angle_deg * kDegree, settings.approach_mm});
+  if (result.thickness >= 0) remark({Code::kThickness, result.thickness});
+  if (result.groove_angle >= 0) remark({Code::kGroove, result.groove_angle});
+  remark(remark_on_gap(result));
+  return result;
+}
+
+}  // namespace arcstart::seam_finding

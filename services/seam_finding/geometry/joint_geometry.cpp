@@ -1,0 +1,69 @@
+#include "services/seam_finding/geometry/joint_geometry.hpp"
+
+#include "services/seam_finding/answer/accuracy.hpp"
+#include "services/seam_finding/answer/seam_measurements.hpp"
+#include "services/seam_finding/ends/crossing_ends.hpp"
+#include "services/seam_finding/ends/parallel_ends.hpp"
+
+namespace arcstart::seam_finding {
+namespace {
+
+// Tee and corners: the seam is where the planes cross.
+class CrossingPlates : public JointGeometry {
+ public:
+  std::array<SeamEnd, 2> ends(const ScanCloud& cloud, const Joint& joint, const Scales& scales,
+                              const SeamFindingSettings& settings) const override {
+    return find_crossing_ends(cloud, joint, scales, settings);
+  }
+  std::optional<SeamAccuracy> accuracy(const ScanCloud& cloud, const Joint& joint,
+                                       const std::array<SeamEnd, 2>& ends, const Scales& scales,
+                                       const SeamFindingSettings& settings) const override {
+    return crossing_accuracy(joint, plane_accuracies(cloud, joint, scales, settings), ends);
+  }
+  std::vector<SeamMeasurement> measurements(const ScanCloud& cloud, const Joint& joint,
+                                            double begin, double end,
+                                            const Scales& scales) const override {
+    return measure_crossing_seam(cloud, joint, begin, end, scales.spacing);
+  }
+  std::array<Eigen::Vector3d, 2> torch_faces(const Joint& joint) const override {
+    return {joint.plates[0].plane.normal, joint.plates[1].plane.normal};
+  }
+};
+
+// Lap, butt joint and V-groove: the seam is where the plates' edges lie.
+class ParallelPlates : public JointGeometry {
+ public:
+  std::array<SeamEnd, 2> ends(const ScanCloud& cloud, const Joint& joint, const Scales& scales,
+                              const SeamFindingSettings& settings) const override {
+    return find_parallel_ends(cloud, joint, scales, settings);
+  }
+  std::optional<SeamAccuracy> accuracy(const ScanCloud& cloud, const Joint& joint,
+                                       const std::array<SeamEnd, 2>& ends, const Scales& scales,
+                                       const SeamFindingSettings& settings) const override {
+    return parallel_accuracy(joint, plane_accuracies(cloud, joint, scales, settings), ends);
+  }
+  std::vector<SeamMeasurement> measurements(const ScanCloud& cloud, const Joint& joint,
+                                            double begin, double end,
+                                            const Scales& scales) const override {
+    return measure_parallel_seam(cloud, joint, begin, end, scales.spacing);
+  }
+  // For parallel plates the second face is virtual: for a lap the upper plate's edge face, for the
+  // others both, a right angle about their normal.
+  std::array<Eigen::Vector3d, 2> torch_faces(const Joint& joint) const override {
+    const Eigen::Vector3d& normal = joint.plates[0].plane.normal;
+    if (joint.type == JointType::kLap) return {normal, joint.plates[joint.parallel->lower].away};
+    const Eigen::Vector3d across = normal.cross(joint.line.direction).normalized();
+    return {(normal + across).normalized(), (normal - across).normalized()};
+  }
+};
+
+}  // namespace
+
+const JointGeometry& geometry_of(const Joint& joint) {
+  static const CrossingPlates crossing;
+  static const ParallelPlates parallel;
+  if (joint.parallel) return parallel;
+  return crossing;
+}
+
+}  // namespace arcstart::seam_finding
