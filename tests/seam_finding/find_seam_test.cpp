@@ -6,6 +6,7 @@
 #include <cmath>
 
 #include "common/geometry.hpp"
+#include "services/seam_finding/answer/wording.hpp"
 #include "services/seam_finding/background/surface_background.hpp"
 #include "tests/seam_finding/support/synthetic_scan.hpp"
 
@@ -55,7 +56,7 @@ struct Table {
 void count(Table& table, const SeamResult& result, const Scene& scene) {
   if (!found(result)) {
     ++(result.verdict == SeamResult::Verdict::kAmbiguous ? table.ambiguous : table.refused);
-    UNSCOPED_INFO(result.reason);
+    UNSCOPED_INFO(in_words(result.reason));
     return;
   }
   ++table.found;
@@ -228,14 +229,14 @@ TEST_CASE("a scan in which too little was seen is refused") {
   const double start = made.scene.start.x();
   const SeamResult late = with([&](double x) { return x > start + 30; });
   CHECK(late.verdict == SeamResult::Verdict::kRefused);
-  CHECK_THAT(late.reason, Catch::Contains("start was not seen"));
+  CHECK(late.reason.code == Reason::Code::kStartBeforeScan);
   const SeamResult gap = with([&](double x) { return x < start - 25 || x > start + 25; });
   CHECK(gap.verdict == SeamResult::Verdict::kRefused);
-  CHECK_THAT(gap.reason, Catch::Contains("missing"));
+  CHECK(gap.reason.code == Reason::Code::kStartMissing);
   const SeamResult early = with([&](double x) { return x < start + 50; });
   REQUIRE(found(early));
   CHECK(early.end_visibility == EndVisibility::kOutside);
-  CHECK_THAT(early.remark, Catch::Contains("where the scan ends"));
+  CHECK_THAT(in_words(early.remarks), Catch::Contains("where the scan ends"));
 }
 
 TEST_CASE("two seams of like length are ambiguous, and both are listed") {

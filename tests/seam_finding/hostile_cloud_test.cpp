@@ -2,6 +2,7 @@
 #include <catch2/catch.hpp>
 #include <random>
 
+#include "services/seam_finding/answer/wording.hpp"
 #include "services/seam_finding/background/surface_background.hpp"
 #include "services/seam_finding/find_seam.hpp"
 #include "tests/seam_finding/support/synthetic_scan.hpp"
@@ -20,7 +21,7 @@ constexpr int kMany = 1'000'000;
 SeamResult find(const ScanCloud& cloud) {
   const SeamResult result = find_seam(cloud, NoBackground(), {}, 1);
   CHECK(result.verdict == SeamResult::Verdict::kRefused);
-  CHECK_FALSE(result.reason.empty());
+  CHECK(result.reason);
   return result;
 }
 

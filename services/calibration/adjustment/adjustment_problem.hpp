@@ -7,7 +7,9 @@
 #include <array>
 #include <vector>
 
-#include "services/calibration/adjustment/adjustment.hpp"
+#include "services/calibration/adjustment/adjustment_model.hpp"
+#include "services/calibration/target/target.hpp"
+#include "services/calibration/target/view.hpp"
 
 namespace arcstart::calibration {
 

@@ -11,16 +11,10 @@
 #include <vector>
 
 #include "common/geometry.hpp"
-#include "common/input_error.hpp"
+#include "services/calibration/files/calibration_set_error.hpp"
 #include "services/calibration/target/target.hpp"
 
 namespace arcstart::calibration {
-
-// One line: which file, what is wrong with it, what to do.
-class CalibrationSetError : public InputError {
- public:
-  using InputError::InputError;
-};
 
 struct CalibrationPose {
   int index = 0;

@@ -9,7 +9,7 @@
 #include <sstream>
 
 #include "common/configuration.hpp"
-#include "services/calibration/files/calibration_set.hpp"
+#include "services/calibration/files/calibration_set_error.hpp"
 
 namespace arcstart::calibration {
 namespace {

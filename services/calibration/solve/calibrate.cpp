@@ -7,12 +7,12 @@
 #include <numbers>
 #include <stdexcept>
 
+#include "common/geometry.hpp"
 #include "services/calibration/adjustment/view_outliers.hpp"
 #include "services/calibration/solve/quality_assessment.hpp"
 #include "services/calibration/stages/quaternion_order.hpp"
 #include "services/calibration/stages/scale_consistency.hpp"
 #include "services/calibration/stages/target_symmetry.hpp"
-#include "common/geometry.hpp"
 
 namespace arcstart::calibration {
 namespace {

@@ -5,8 +5,8 @@
 #include <vector>
 
 #include "common/calibration.hpp"
-#include "services/calibration/solve/calibrate.hpp"
 #include "services/calibration/solve/calibration_limits.hpp"
+#include "services/calibration/solve/calibration_run.hpp"
 
 namespace arcstart::calibration {
 

@@ -1,7 +1,7 @@
 // What is to be said of an adjusted calibration: residuals, poses it never saw, warnings, advice.
 #pragma once
 
-#include "services/calibration/solve/calibrate.hpp"
+#include "services/calibration/solve/calibration_run.hpp"
 
 namespace arcstart::calibration {
 

@@ -1,5 +1,4 @@
 #include "services/calibration/stages/pose_diversity.hpp"
-#include "common/geometry.hpp"
 
 #include <fmt/format.h>
 
@@ -7,6 +6,8 @@
 #include <algorithm>
 #include <cmath>
 #include <numbers>
+
+#include "common/geometry.hpp"
 
 namespace arcstart::calibration {
 namespace {

@@ -5,7 +5,9 @@
 #include <cstdint>
 #include <vector>
 
-#include "services/cell_simulator/scene/scene.hpp"
+#include "common/geometry.hpp"
+#include "services/cell_simulator/scene/scene_object.hpp"
+#include "services/cell_simulator/scene/scene_settings.hpp"
 
 namespace arcstart::cell_simulator {
 

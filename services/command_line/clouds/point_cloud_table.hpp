@@ -7,7 +7,7 @@
 #include <string_view>
 #include <vector>
 
-#include "services/command_line/clouds/point_cloud_file.hpp"
+#include "services/command_line/clouds/point_cloud.hpp"
 
 namespace arcstart::command_line {
 

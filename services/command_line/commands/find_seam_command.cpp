@@ -13,6 +13,7 @@
 #include "services/command_line/clouds/cloud_picture.hpp"
 #include "services/command_line/clouds/point_cloud_file.hpp"
 #include "services/command_line/output/seam_json.hpp"
+#include "services/seam_finding/answer/wording.hpp"
 #include "services/seam_finding/background/plane_background.hpp"
 #include "services/seam_finding/background/surface_background.hpp"
 #include "services/seam_finding/consensus_seam.hpp"
@@ -110,7 +111,7 @@ void draw(const seam_finding::ScanCloud& cloud, const seam_finding::SeamResult& 
     picture.alternatives.emplace_back(other.start, other.end);
   if (plane) picture.up = plane->normal;
   picture.toward_viewer = picture.up + picture.up.unitOrthogonal();
-  picture.title = options.cloud + ": " + result.reason;
+  picture.title = options.cloud + ": " + in_words(result.reason);
   if (result.verdict == seam_finding::SeamResult::Verdict::kFound) {
     picture.seam = {result.start, result.end};
     picture.toward_viewer = result.normals[0] + result.normals[1] - 0.6 * result.direction;
@@ -142,18 +143,18 @@ void tell(const seam_finding::SeamResult& result) {
     case seam_finding::SeamResult::Verdict::kFound:
       say(fmt::format("found {}, start {} mm, end {} mm, direction {}; {}", result.joint_type,
                       in_words(result.start, 2), in_words(result.end, 2),
-                      in_words(result.direction, 4), result.remark));
+                      in_words(result.direction, 4), in_words(result.remarks)));
       break;
     case seam_finding::SeamResult::Verdict::kAmbiguous:
-      say("ambiguous: " + result.reason);
+      say("ambiguous: " + in_words(result.reason));
       break;
     case seam_finding::SeamResult::Verdict::kRefused:
-      say("refused: " + result.reason);
+      say("refused: " + in_words(result.reason));
       break;
   }
   for (const auto& other : result.alternatives)
     say(fmt::format("also {} mm to {} mm, score {:.1f}: {}", in_words(other.start, 1),
-                    in_words(other.end, 1), other.score, other.reason));
+                    in_words(other.end, 1), other.score, in_words(other.reason)));
 }
 
 int run(const Options& options) {

@@ -7,6 +7,7 @@
 #include "services/command_line/clouds/cloud_picture.hpp"
 #include "services/command_line/clouds/point_cloud_file.hpp"
 #include "services/extraction/files/stripe_picture.hpp"
+#include "services/seam_finding/answer/wording.hpp"
 #include "services/seam_finding/find_seam.hpp"
 #include "services/seam_finding/scan/scan_answer.hpp"
 
@@ -107,7 +108,7 @@ void ScanPictures::write_cloud() const {
       colours.push_back(kRed);
     }
   } else {
-    picture.title = "no seam: " + result.reason;
+    picture.title = "no seam: " + in_words(result.reason);
   }
   for (const auto& other : result.alternatives)
     picture.alternatives.emplace_back(other.start, other.end);

@@ -1,8 +1,8 @@
 #include <fmt/format.h>
 
-#include "services/seam_finding/background/neighbour_background.hpp"
 #include "services/seam_finding/background/surface_background.hpp"
 #include "services/seam_finding/find_seam.hpp"
+#include "services/seam_finding/paper/find_seam_as_in_the_paper.hpp"
 #include "services/seam_finding/scan/scan_answer.hpp"
 #include "services/seam_finding/scan/seam_message.hpp"
 #include "tests/bench/seam/seam_row.hpp"

@@ -5,9 +5,9 @@
 #include <cmath>
 #include <random>
 
-#include "services/seam_finding/background/neighbour_background.hpp"
 #include "services/seam_finding/background/surface_background.hpp"
 #include "services/seam_finding/model/scan_cloud.hpp"
+#include "services/seam_finding/paper/find_seam_as_in_the_paper.hpp"
 #include "tests/seam_finding/support/pcl_judge.hpp"
 #include "tests/seam_finding/support/synthetic_scan.hpp"
 

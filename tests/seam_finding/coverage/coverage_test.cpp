@@ -3,6 +3,9 @@
 #include <catch2/catch.hpp>
 #include <cmath>
 
+#include "services/seam_finding/paper/find_seam_as_in_the_paper.hpp"
+#include "tests/seam_finding/support/scales.hpp"
+
 using namespace arcstart;
 using namespace arcstart::seam_finding;
 
@@ -49,7 +52,7 @@ struct Bench {
         }
       end_stripe(cloud, ScanStripe::Seen::kSeen, tool + Eigen::Vector3d(0, 200, 0), tool);
     }
-    return find_coverage(cloud, plates, line, {kPitch, 0.5, 20});
+    return find_coverage(cloud, plates, line, scales_of_test(kPitch, 0.5));
   }
 };
 
@@ -150,7 +153,7 @@ TEST_CASE("an interruption is bridged when short, and ends the seam when long") 
     std::erase_if(plates[1].points, [&](int i) {
       return bench.cloud.points[i].x() > low && bench.cloud.points[i].x() < high;
     });
-    return find_coverage(bench.cloud, plates, bench.line, {kPitch, 0.5, 20});
+    return find_coverage(bench.cloud, plates, bench.line, scales_of_test(kPitch, 0.5));
   };
   Coverage course = without(60, 72);
   CHECK(std::abs(course.begin - 20) < 3);
@@ -172,7 +175,8 @@ TEST_CASE("points of a plate behind the other plate are no part of the seam") {
       bench.cloud.origins.push_back({k, 2, false, 0});
       bench.plates[0].points.push_back(bench.cloud.size() - 1);
     }
-  const Coverage course = find_coverage(bench.cloud, bench.plates, bench.line, {kPitch, 0.5, 20});
+  const Coverage course =
+      find_coverage(bench.cloud, bench.plates, bench.line, scales_of_test(kPitch, 0.5));
   CHECK(std::abs(course.begin - 60) < 3);
 }
 
@@ -187,7 +191,8 @@ TEST_CASE("points that may be either plate's do not make the other one") {
   for (const int i : bench.plates[1].points)
     if (bench.cloud.points[i].z() < 0.5) plates[0].points.push_back(i);
   std::sort(plates[0].points.begin(), plates[0].points.end());
-  const Coverage course = find_coverage(bench.cloud, plates, bench.line, {kPitch, 0.5, 20});
+  const Coverage course =
+      find_coverage(bench.cloud, plates, bench.line, scales_of_test(kPitch, 0.5));
   CHECK(std::abs(course.begin - 60) < 3);
 }
 
@@ -206,7 +211,8 @@ TEST_CASE("without stripes the course is where both plates leave no wide gap") {
   };
   add(0, 0, 100);
   add(1, 30, 85);
-  const Coverage course = find_coverage(cloud, plates, {{0, 0, 0}, {1, 0, 0}}, {1.5, 0.5, 20});
+  const Coverage course =
+      find_coverage(cloud, plates, {{0, 0, 0}, {1, 0, 0}}, scales_of_test(1.5, 0.5));
   CHECK(std::abs(course.begin - 30) < 2);
   CHECK(std::abs(course.end - 85) < 3);
   CHECK_FALSE(course.begins_outside);

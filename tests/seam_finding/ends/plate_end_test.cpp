@@ -4,6 +4,8 @@
 #include <cmath>
 #include <random>
 
+#include "tests/seam_finding/support/scales.hpp"
+
 using namespace arcstart;
 using namespace arcstart::seam_finding;
 
@@ -47,11 +49,13 @@ Made make(double begin, double slant, bool something_before, unsigned seed) {
   return made;
 }
 
-std::optional<PlateEdge> edge_of(const Made& made, SeamSide side, const EdgeSearch& search) {
-  return find_edge(
-      made.cloud,
-      plate_stripes(made.cloud, made.plate, made.other, made.line, search.tolerance, search.noise),
-      side, search);
+std::optional<PlateEdge> edge_of(const Made& made, SeamSide side, const EdgeWindow& window,
+                                 double shortening_px) {
+  const Scales scales = scales_of_test(3.6, 0.5, 0.02);
+  SeamFindingSettings settings;
+  settings.edge_shortening_px = shortening_px;
+  return find_edge(made.cloud, plate_stripes(made.cloud, made.plate, made.other, made.line, scales),
+                   side, window, scales, settings);
 }
 
 }  // namespace
@@ -62,12 +66,12 @@ TEST_CASE("the edge of a plate is found to a fraction of the stripes' distance")
     for (unsigned seed = 1; seed <= 20; ++seed) {
       const double begin = 0.17 * seed;
       const Made made = make(begin, slant, false, seed);
-      const auto edge = edge_of(made, SeamSide::kBegin, {begin - 3, begin + 3, 0, 0.5, 0.02, 0.15});
+      const auto edge = edge_of(made, SeamSide::kBegin, {begin - 3, begin + 3, 0}, 0.15);
       REQUIRE(edge);
       CHECK(edge->along == Approx(begin).margin(0.15));
       CHECK_FALSE(edge->occluded);
       within += std::pow(edge->along - begin, 2) <= 4 * edge->variance;
-      const auto end = edge_of(made, SeamSide::kEnd, {97, 103, 0, 0.5, 0.02, 0.15});
+      const auto end = edge_of(made, SeamSide::kEnd, {97, 103, 0}, 0.15);
       REQUIRE(end);
       CHECK(end->along == Approx(100).margin(0.15));
     }
@@ -76,9 +80,9 @@ TEST_CASE("the edge of a plate is found to a fraction of the stripes' distance")
 }
 
 TEST_CASE("stripes square to the seam cross no edge; what lies before a plate hides its edge") {
-  CHECK_FALSE(edge_of(make(0, 0, false, 1), SeamSide::kBegin, {-3, 3, 0, 0.5, 0.02, 0.5}));
+  CHECK_FALSE(edge_of(make(0, 0, false, 1), SeamSide::kBegin, {-3, 3, 0}, 0.5));
   const Made hidden = make(2, 0.3, true, 3);
-  const auto edge = edge_of(hidden, SeamSide::kBegin, {-1, 5, 0, 0.5, 0.02, 0.5});
+  const auto edge = edge_of(hidden, SeamSide::kBegin, {-1, 5, 0}, 0.5);
   REQUIRE(edge);
   CHECK(edge->occluded);
 }
@@ -104,7 +108,7 @@ TEST_CASE("a stripe that ends behind something before the edge is no place of it
   ++made.cloud.stripes[index].count;
   for (std::size_t k = index + 1; k < made.cloud.stripes.size(); ++k) ++made.cloud.stripes[k].first;
   for (int& i : made.plate.points) i += i > last;
-  const auto edge = edge_of(made, SeamSide::kBegin, {-1, 5, 0, 0.5, 0.02, 0.15});
+  const auto edge = edge_of(made, SeamSide::kBegin, {-1, 5, 0}, 0.15);
   REQUIRE(edge);
   CHECK_FALSE(edge->occluded);
   CHECK(edge->along == Approx(2).margin(0.15));
@@ -112,8 +116,9 @@ TEST_CASE("a stripe that ends behind something before the edge is no place of it
 
 TEST_CASE("a stripe whose light ends too early draws no edge to it") {
   Made made = make(2, 0.4, false, 6);
-  const EdgeSearch search{-1, 5, 0, 0.5, 0.02, 0.03};
-  const auto as_made = edge_of(made, SeamSide::kBegin, search);
+  const EdgeWindow window{-1, 5, 0};
+  const double shortening_px = 0.03;
+  const auto as_made = edge_of(made, SeamSide::kBegin, window, shortening_px);
   REQUIRE(as_made);
   REQUIRE(as_made->stripes >= 4);
   for (const int i : made.plate.points)
@@ -121,7 +126,7 @@ TEST_CASE("a stripe whose light ends too early draws no edge to it") {
       made.cloud.points[i] += Eigen::Vector3d(0.3, -0.3 / 0.4, 0);
       break;
     }
-  const auto edge = edge_of(made, SeamSide::kBegin, search);
+  const auto edge = edge_of(made, SeamSide::kBegin, window, shortening_px);
   REQUIRE(edge);
   CHECK(edge->stripes == as_made->stripes - 1);
   CHECK(edge->along == Approx(as_made->along).margin(0.04));
@@ -130,7 +135,7 @@ TEST_CASE("a stripe whose light ends too early draws no edge to it") {
 TEST_CASE("a place where a stripe crosses an edge flatly counts for little") {
   const auto variance = [](double slant) {
     const Made made = make(2, slant, false, 7);
-    const auto edge = edge_of(made, SeamSide::kBegin, {-1, 5, 0, 0.5, 0.02, 0.03});
+    const auto edge = edge_of(made, SeamSide::kBegin, {-1, 5, 0}, 0.03);
     REQUIRE(edge);
     return edge->variance * edge->stripes;
   };
@@ -176,7 +181,7 @@ TEST_CASE("of two edges the first counts, or both of flush plates, as far as eit
 TEST_CASE("an edge out of square is found where enough stripes cross it") {
   Made made = make(2, 0.4, false, 8);
   for (Eigen::Vector3d& point : made.cloud.points) point.x() += 0.015 * point.y();
-  const auto edge = edge_of(made, SeamSide::kBegin, {-1, 5, 0, 0.5, 0.02, 0.03});
+  const auto edge = edge_of(made, SeamSide::kBegin, {-1, 5, 0}, 0.03);
   REQUIRE(edge);
   CHECK(edge->stripes >= 4);
   CHECK(edge->along == Approx(2).margin(0.08));
@@ -184,8 +189,8 @@ TEST_CASE("an edge out of square is found where enough stripes cross it") {
 
 TEST_CASE("there is no edge where none is expected, nor in a cloud without stripes") {
   const Made made = make(2, 0.3, false, 5);
-  CHECK_FALSE(edge_of(made, SeamSide::kBegin, {40, 46, 0, 0.5, 0.02, 0.5}));
+  CHECK_FALSE(edge_of(made, SeamSide::kBegin, {40, 46, 0}, 0.5));
   Made loose = made;
   loose.cloud.stripes.clear();
-  CHECK_FALSE(edge_of(loose, SeamSide::kBegin, {-1, 5, 0, 0.5, 0.02, 0.5}));
+  CHECK_FALSE(edge_of(loose, SeamSide::kBegin, {-1, 5, 0}, 0.5));
 }

@@ -3,6 +3,8 @@
 #include <catch2/catch.hpp>
 #include <cmath>
 
+#include "tests/seam_finding/support/scales.hpp"
+
 using namespace arcstart;
 using namespace arcstart::seam_finding;
 
@@ -42,13 +44,12 @@ std::array<JointPlate, 2> plates_of(const ScanCloud& cloud) {
 }
 
 const Line kSeam{Eigen::Vector3d::Zero(), Eigen::Vector3d::UnitX()};
-const EndSearch kSearch{0.5, 0.0, 0};
+const Scales kScales = scales_of_test(2, 0.5, 0);
 
 PlateExtent extent_of(const ScanCloud& cloud) {
   const auto plates = plates_of(cloud);
-  return plate_extent(
-      cloud, plate_stripes(cloud, plates[0], plates[1], kSeam, kSearch.tolerance, kSearch.noise),
-      SeamSide::kBegin, 0, kSearch);
+  return plate_extent(cloud, plate_stripes(cloud, plates[0], plates[1], kSeam, kScales),
+                      SeamSide::kBegin, 0, kScales);
 }
 
 }  // namespace
@@ -125,13 +126,12 @@ TEST_CASE("light that falls past a plate bounds it, whatever else lies in its pl
     if (cloud.points[i].y() > 35 && cloud.points[i].z() < 0 && cloud.points[i].x() > -15)
       cloud.points[i] = {cloud.points[i].x() + 8, cloud.points[i].y(), 0};
   const auto plates = plates_of(cloud);
-  const auto stripes =
-      plate_stripes(cloud, plates[0], plates[1], kSeam, kSearch.tolerance, kSearch.noise);
-  const double on = seen_on_plate(cloud, stripes, SeamSide::kBegin, 0, kSearch, crossings);
+  const auto stripes = plate_stripes(cloud, plates[0], plates[1], kSeam, kScales);
+  const double on = seen_on_plate(cloud, stripes, SeamSide::kBegin, 0, kScales, crossings);
   // The stripe at 1.5 is the first on the plate, the one at -2.5 the last that falls past it.
   CHECK(on < 2.5);
   CHECK(on > -2.5);
-  CHECK(seen_on_plate(cloud, stripes, SeamSide::kBegin, 0, kSearch) > 6);
+  CHECK(seen_on_plate(cloud, stripes, SeamSide::kBegin, 0, kScales) > 6);
 }
 
 TEST_CASE("without stripes nothing is known") {
