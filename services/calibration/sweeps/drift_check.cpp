@@ -42,7 +42,7 @@ std::map<std::int64_t, std::vector<ScannedStripe>> by_scan(const SweepRecord& re
   std::map<std::int64_t, std::vector<ScannedStripe>> scans;
   for (const SweptStripe& stripe : record.stripes) {
     const auto lookup = record.trajectory.at(stripe.utime + seconds_to_us(calibration.time_offset));
-    if (lookup.state == TrajectoryQueue::State::found)
+    if (lookup.state == reconstruction::TrajectoryQueue::State::found)
       scans[stripe.scan_id].push_back({&stripe, lookup.T_base_tool});
   }
   return scans;

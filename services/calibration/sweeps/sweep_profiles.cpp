@@ -66,13 +66,13 @@ std::vector<StraightPiece> straight_pieces(const SensorModel& model,
   return pieces;
 }
 
-std::optional<SensorMotion> SensorMotion::at(const TrajectoryQueue& trajectory,
+std::optional<SensorMotion> SensorMotion::at(const reconstruction::TrajectoryQueue& trajectory,
                                              const RigidTransform& T_tool_camera,
                                              std::int64_t utime) {
   const auto before = trajectory.at(utime - kApart), now = trajectory.at(utime),
              after = trajectory.at(utime + kApart);
   for (const auto* lookup : {&before, &now, &after})
-    if (lookup->state != TrajectoryQueue::State::found) return std::nullopt;
+    if (lookup->state != reconstruction::TrajectoryQueue::State::found) return std::nullopt;
   SensorMotion motion;
   motion.before_ = before.T_base_tool * T_tool_camera;
   motion.now_ = now.T_base_tool * T_tool_camera;
