@@ -4,13 +4,13 @@
 #include <spdlog/spdlog.h>
 #include <unistd.h>
 
-#include <CLI/CLI.hpp>
 #include <algorithm>
 #include <csignal>
 #include <cstdlib>
 #include <filesystem>
 #include <fstream>
 
+#include "common/options.hpp"
 #include "common/time.hpp"
 #ifdef ARCSTART_SYSTEMD
 #include <systemd/sd-daemon.h>
@@ -132,20 +132,15 @@ int run_service(int argc, char** argv, const ServiceDescription& description,
   std::string cell;
   Instance instance;
   instance.state_folder = default_state_folder();
-  CLI::App options("arcstart " + description.name + ": " + description.purpose);
-  options.add_option("--cell", cell,
-                     "The cell's file, cell.yaml; without it every setting is at its default");
-  options.add_option("--sensor", instance.sensor, "Sensor that this process serves")
-      ->capture_default_str();
-  options.add_option("--robot", instance.robot, "Robot that carries it")->capture_default_str();
-  options.add_option("--state", instance.state_folder, "Folder for what must outlive the process")
-      ->capture_default_str();
-  options.set_version_flag("--version", ARCSTART_VERSION);
-  try {
-    options.parse(argc, argv);
-  } catch (const CLI::ParseError& error) {
-    return options.exit(error) == 0 ? 0 : 2;
-  }
+  Program options("arcstart " + description.name + ": " + description.purpose);
+  options.option("--cell", cell,
+                 "The cell's file, cell.yaml; without it every setting is at its default");
+  options.option("--sensor", instance.sensor, "Sensor that this process serves").show_default();
+  options.option("--robot", instance.robot, "Robot that carries it").show_default();
+  options.option("--state", instance.state_folder, "Folder for what must outlive the process")
+      .show_default();
+  options.version(ARCSTART_VERSION);
+  if (const auto code = options.parse(argc, argv)) return *code;
 
   spdlog::set_default_logger(spdlog::stderr_logger_mt(description.name));
   spdlog::set_pattern("%H:%M:%S.%e %n: %l: %v");

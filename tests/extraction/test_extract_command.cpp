@@ -1,6 +1,7 @@
 // arcstart extract as typed: files in, CSV and pictures out, exit codes.
 #include <unistd.h>
 
+#include <CLI/CLI.hpp>
 #include <catch2/catch.hpp>
 #include <cmath>
 #include <filesystem>
