@@ -104,7 +104,7 @@ void run_loop(ServiceContext& context, const ServiceDescription& description, Ap
     }
     const bool losing = last_loss != 0 && steady_now() - last_loss < kLossIsNews;
     const bool changed = health.state != told.state || health.last_error != told.last_error;
-    if (changed && !health.last_error.empty()) spdlog::warn("{}", health.last_error);
+    if (changed && !health.last_error.empty()) spdlog::warn(health.last_error);
     if (changed && health.last_error.empty() && !told.last_error.empty())
       spdlog::info("well again");
     if (!changed && steady_now() < next_status) continue;
@@ -154,16 +154,16 @@ int run_service(int argc, char** argv, const ServiceDescription& description,
         cell.empty() ? Configuration() : Configuration::from_file(cell);
     open_state_folder(instance.state_folder);
     Bus bus(configuration.read<BusSettings>("bus"));
-    if (!bus.buffer_warning().empty()) spdlog::warn("{}", bus.buffer_warning());
+    if (!bus.buffer_warning().empty()) spdlog::warn(bus.buffer_warning());
     ServiceContext context{bus, configuration, instance, utime_now(), {}};
     const std::unique_ptr<App> app = make_app(context);
     run_loop(context, description, *app);
     return 0;
   } catch (const InputError& error) {
-    spdlog::error("{}", error.what());
+    spdlog::error(error.what());
     return 2;
   } catch (const std::exception& error) {
-    spdlog::error("{}", error.what());
+    spdlog::error(error.what());
     return 1;
   }
 }
