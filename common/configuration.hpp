@@ -8,18 +8,20 @@
 // which names its keys once, for reading and for writing. Keys carry their unit.
 #pragma once
 
-#include <fmt/format.h>
-#include <yaml-cpp/yaml.h>
-
-#include <algorithm>
 #include <array>
 #include <functional>
+#include <memory>
 #include <set>
 #include <string>
 #include <type_traits>
 #include <vector>
 
 #include "common/input_error.hpp"
+
+// Nearly everything includes this: yaml-cpp and fmt stay in configuration.cpp.
+namespace YAML {
+class Node;
+}  // namespace YAML
 
 namespace arcstart {
 
@@ -34,66 +36,58 @@ class ConfigurationError : public InputError {
 template <class T>
 using Condition = std::function<std::string(const T&)>;
 
-inline auto between(double low, double high) {
-  return [low, high](const auto& value) -> std::string {
-    const auto number = static_cast<double>(value);
-    return number >= low && number <= high ? ""
-                                           : fmt::format("must lie between {} and {}", low, high);
-  };
-}
-inline auto positive() {
-  return [](const auto& value) -> std::string { return value > 0 ? "" : "must be greater than 0"; };
-}
-inline auto not_negative() {
-  return [](const auto& value) -> std::string { return value >= 0 ? "" : "must not be below 0"; };
-}
-inline auto one_of(std::vector<std::string> choices) {
-  return [choices](const std::string& value) -> std::string {
-    for (const auto& choice : choices)
-      if (value == choice) return "";
-    return fmt::format("must be one of {}", fmt::join(choices, ", "));
-  };
-}
+struct Between {
+  double low, high;
+  std::string operator()(double value) const;
+};
+struct Positive {
+  std::string operator()(double value) const;
+};
+struct NotNegative {
+  std::string operator()(double value) const;
+};
+struct OneOf {
+  std::vector<std::string> choices;
+  std::string operator()(const std::string& value) const;
+};
+inline Between between(double low, double high) { return {low, high}; }
+inline Positive positive() { return {}; }
+inline NotNegative not_negative() { return {}; }
+inline OneOf one_of(std::vector<std::string> choices) { return {std::move(choices)}; }
 
 // Reads one section; every key must be known, of the right type and possible.
 class SectionReader {
  public:
-  SectionReader(std::string file, std::string section, YAML::Node node);
+  SectionReader(std::string file, std::string section, const YAML::Node& node);
 
   template <class T>
   void operator()(const std::string& key, T& value,
-                  std::type_identity_t<Condition<T>> condition = {}) {
-    known_.insert(key);
-    const YAML::Node entry = find(key);
-    if (!entry) return;
-    read(key, entry, value);
-    if (!condition) return;
-    if (const std::string why = condition(value); !why.empty())
-      fail(entry, key, why + ", is " + text(entry));
+                  const std::type_identity_t<Condition<T>>& condition = {}) {
+    if (!read(key, value) || !condition) return;
+    if (const std::string why = condition(value); !why.empty()) refuse(key, why);
   }
   void refuse_unknown_keys() const;
 
  private:
-  YAML::Node find(const std::string& key) const;
-  void read(const std::string& key, const YAML::Node& entry, bool& value) const;
-  void read(const std::string& key, const YAML::Node& entry, int& value) const;
-  void read(const std::string& key, const YAML::Node& entry, double& value) const;  // finite
-  void read(const std::string& key, const YAML::Node& entry, std::string& value) const;
-  void read(const std::string& key, const YAML::Node& entry, std::vector<double>& value) const;
-  void read(const std::string& key, const YAML::Node& entry, std::vector<std::string>& value) const;
+  // False where the section has no such key.
+  bool read(const std::string& key, bool& value);
+  bool read(const std::string& key, int& value);
+  bool read(const std::string& key, double& value);  // finite
+  bool read(const std::string& key, std::string& value);
+  bool read(const std::string& key, std::vector<double>& value);
+  bool read(const std::string& key, std::vector<std::string>& value);
+  bool read(const std::string& key, double* values, std::size_t count);
   template <std::size_t N>
-  void read(const std::string& key, const YAML::Node& entry, std::array<double, N>& value) const {
-    std::vector<double> numbers;
-    read(key, entry, numbers);
-    if (numbers.size() != N) fail(entry, key, fmt::format("must be a list of {} numbers", N));
-    std::copy(numbers.begin(), numbers.end(), value.begin());
+  bool read(const std::string& key, std::array<double, N>& value) {
+    return read(key, value.data(), N);
   }
+  YAML::Node find(const std::string& key);
+  [[noreturn]] void refuse(const std::string& key, const std::string& why) const;
   [[noreturn]] void fail(const YAML::Node& at, const std::string& key,
                          const std::string& why) const;
-  static std::string text(const YAML::Node& entry);
 
   std::string file_, section_;
-  YAML::Node node_;
+  std::shared_ptr<const YAML::Node> node_;
   std::set<std::string> known_;
 };
 
@@ -104,37 +98,38 @@ class SectionWriter {
   template <class T>
   void operator()(const std::string& key, const T& value,
                   const std::type_identity_t<Condition<T>>& = {}) {
-    text_ += "  " + key + ": " + write(value) + "\n";
+    add(key, write(value));
   }
   const std::string& text() const { return text_; }
 
  private:
-  static std::string write(bool value) { return value ? "true" : "false"; }
-  static std::string write(int value) { return fmt::format("{}", value); }
-  static std::string write(double value) { return fmt::format("{}", value); }
+  void add(const std::string& key, const std::string& value);
+  static std::string write(bool value);
+  static std::string write(int value);
+  static std::string write(double value);
   static std::string write(const std::string& value);
-  template <class List>
-  static std::string write(const List& values) {
-    std::string line = "[";
-    for (const auto& value : values) line += (line.size() > 1 ? ", " : "") + write(value);
-    return line + "]";
+  static std::string write(const std::vector<double>& values);
+  static std::string write(const std::vector<std::string>& values);
+  template <std::size_t N>
+  static std::string write(const std::array<double, N>& values) {
+    return write(std::vector<double>(values.begin(), values.end()));
   }
   std::string text_;
 };
 
 class Configuration {
  public:
-  Configuration() = default;                                // all defaults
+  Configuration();                                          // all defaults
   static Configuration from_file(const std::string& path);  // throws ConfigurationError
   static Configuration from_text(const std::string& text,
                                  const std::string& name);  // name stands in errors
 
-  bool has(const std::string& section) const { return root_[section].IsDefined(); }
+  bool has(const std::string& section) const;
 
   template <class Settings>
   Settings read(const std::string& section) const {
     Settings settings;
-    SectionReader reader(name_, section, has(section) ? root_[section] : YAML::Node());
+    SectionReader reader = section_reader(section);
     settings.visit(reader);
     reader.refuse_unknown_keys();
     return settings;
@@ -142,8 +137,10 @@ class Configuration {
   const std::string& name() const { return name_; }
 
  private:
+  SectionReader section_reader(const std::string& section) const;
+
   std::string name_ = "defaults";
-  YAML::Node root_{YAML::NodeType::Map};
+  std::shared_ptr<const YAML::Node> root_;
 };
 
 // The section's effective text, every key with its value.

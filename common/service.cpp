@@ -4,13 +4,13 @@
 #include <spdlog/spdlog.h>
 #include <unistd.h>
 
-#include <CLI/CLI.hpp>
 #include <algorithm>
 #include <csignal>
 #include <cstdlib>
 #include <filesystem>
 #include <fstream>
 
+#include "common/options.hpp"
 #include "common/time.hpp"
 #ifdef ARCSTART_SYSTEMD
 #include <systemd/sd-daemon.h>
@@ -104,7 +104,7 @@ void run_loop(ServiceContext& context, const ServiceDescription& description, Ap
     }
     const bool losing = last_loss != 0 && steady_now() - last_loss < kLossIsNews;
     const bool changed = health.state != told.state || health.last_error != told.last_error;
-    if (changed && !health.last_error.empty()) spdlog::warn("{}", health.last_error);
+    if (changed && !health.last_error.empty()) spdlog::warn(health.last_error);
     if (changed && health.last_error.empty() && !told.last_error.empty())
       spdlog::info("well again");
     if (!changed && steady_now() < next_status) continue;
@@ -132,20 +132,15 @@ int run_service(int argc, char** argv, const ServiceDescription& description,
   std::string cell;
   Instance instance;
   instance.state_folder = default_state_folder();
-  CLI::App options("arcstart " + description.name + ": " + description.purpose);
-  options.add_option("--cell", cell,
-                     "The cell's file, cell.yaml; without it every setting is at its default");
-  options.add_option("--sensor", instance.sensor, "Sensor that this process serves")
-      ->capture_default_str();
-  options.add_option("--robot", instance.robot, "Robot that carries it")->capture_default_str();
-  options.add_option("--state", instance.state_folder, "Folder for what must outlive the process")
-      ->capture_default_str();
-  options.set_version_flag("--version", ARCSTART_VERSION);
-  try {
-    options.parse(argc, argv);
-  } catch (const CLI::ParseError& error) {
-    return options.exit(error) == 0 ? 0 : 2;
-  }
+  Program options("arcstart " + description.name + ": " + description.purpose);
+  options.option("--cell", cell,
+                 "The cell's file, cell.yaml; without it every setting is at its default");
+  options.option("--sensor", instance.sensor, "Sensor that this process serves").show_default();
+  options.option("--robot", instance.robot, "Robot that carries it").show_default();
+  options.option("--state", instance.state_folder, "Folder for what must outlive the process")
+      .show_default();
+  options.version(ARCSTART_VERSION);
+  if (const auto code = options.parse(argc, argv)) return *code;
 
   spdlog::set_default_logger(spdlog::stderr_logger_mt(description.name));
   spdlog::set_pattern("%H:%M:%S.%e %n: %l: %v");
@@ -159,16 +154,16 @@ int run_service(int argc, char** argv, const ServiceDescription& description,
         cell.empty() ? Configuration() : Configuration::from_file(cell);
     open_state_folder(instance.state_folder);
     Bus bus(configuration.read<BusSettings>("bus"));
-    if (!bus.buffer_warning().empty()) spdlog::warn("{}", bus.buffer_warning());
+    if (!bus.buffer_warning().empty()) spdlog::warn(bus.buffer_warning());
     ServiceContext context{bus, configuration, instance, utime_now(), {}};
     const std::unique_ptr<App> app = make_app(context);
     run_loop(context, description, *app);
     return 0;
   } catch (const InputError& error) {
-    spdlog::error("{}", error.what());
+    spdlog::error(error.what());
     return 2;
   } catch (const std::exception& error) {
-    spdlog::error("{}", error.what());
+    spdlog::error(error.what());
     return 1;
   }
 }

@@ -6,7 +6,7 @@
 #include <memory>
 #include <string>
 
-#include "common/bus.hpp"
+#include "common/bus/bus.hpp"
 #include "common/configuration.hpp"
 
 namespace arcstart {

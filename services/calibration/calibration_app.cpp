@@ -1,8 +1,9 @@
 #include "services/calibration/calibration_app.hpp"
 
+#include <fmt/core.h>
 #include <spdlog/spdlog.h>
 
-#include "common/calibration_message.hpp"
+#include "common/bus/calibration_message.hpp"
 #include "services/calibration/files/calibration_file.hpp"
 
 namespace arcstart::calibration {
@@ -52,8 +53,8 @@ void CalibrationApp::look_at_file() try {
   file_error_.clear();
   taken_ = stamp;
   if (message_ && message_->id == calibration.id) return;
-  spdlog::info("{}: calibration {}, made by: {}{}", settings_.file, calibration.id,
-               calibration.origin, message_ ? "; it replaces " + message_->id : "");
+  spdlog::info(fmt::format("{}: calibration {}, made by: {}{}", settings_.file, calibration.id,
+                           calibration.origin, message_ ? "; it replaces " + message_->id : ""));
   message_ = to_message(calibration);
   last_sent_ = 0;
 } catch (const CalibrationFileError& error) {

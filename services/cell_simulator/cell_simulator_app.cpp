@@ -1,5 +1,6 @@
 #include "services/cell_simulator/cell_simulator_app.hpp"
 
+#include <fmt/core.h>
 #include <spdlog/spdlog.h>
 
 #include <algorithm>
@@ -31,7 +32,7 @@ CellSimulatorApp::CellSimulatorApp(Bus& bus, const CellSimulatorSettings& settin
     const TrueCalibration calibration{instance.sensor, instance.robot, settings.tool,
                                       cell_.sensor(), -settings.image_delay_ms * 1e-3};
     if (write_calibration(settings.calibration_file, calibration, now))
-      spdlog::info("{}: the true calibration written", settings.calibration_file);
+      spdlog::info(fmt::format("{}: the true calibration written", settings.calibration_file));
   }
   bus_.subscribe<scan_t>(instance.sensor_channel("SCAN"), Queue::measurements(),
                          [this](const scan_t& scan) { on_scan(scan); });
@@ -49,14 +50,14 @@ void CellSimulatorApp::on_scan(const scan_t& scan) {
   scan_id_ = scan.scan_id;
   scanning_ = true;
   const std::int64_t start = cell_.scan_begins(now, scan.begin_utime);
-  spdlog::info("scan {}: the search begins {:.3f} s after it", scan_id_,
-               static_cast<double>(start - scan.begin_utime) * 1e-6);
+  spdlog::info(fmt::format("scan {}: the search begins {:.3f} s after it", scan_id_,
+                           static_cast<double>(start - scan.begin_utime) * 1e-6));
 }
 
 void CellSimulatorApp::end_scan(std::int64_t now, const char* why) {
   scanning_ = false;
   cell_.scan_ends(now);
-  spdlog::info("scan {}: {}; the arm goes back", scan_id_, why);
+  spdlog::info(fmt::format("scan {}: {}; the arm goes back", scan_id_, why));
 }
 
 void CellSimulatorApp::on_command(const cell_command_t& command) {

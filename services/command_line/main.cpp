@@ -2,10 +2,10 @@
 #include <spdlog/sinks/stdout_sinks.h>
 #include <spdlog/spdlog.h>
 
-#include <CLI/CLI.hpp>
 #include <iostream>
 
 #include "common/input_error.hpp"
+#include "common/options.hpp"
 #include "services/command_line/commands/calibrate_command.hpp"
 #include "services/command_line/commands/cell_command.hpp"
 #include "services/command_line/commands/check_command.hpp"
@@ -18,10 +18,9 @@
 
 namespace {
 
-void complain(const CLI::App& program, const std::exception& error) {
-  const auto commands = program.get_subcommands();
-  std::cerr << (commands.empty() ? "arcstart" : commands.front()->get_name()) << ": "
-            << error.what() << "\n";
+void complain(const arcstart::Program& program, const std::exception& error) {
+  const std::string command = program.command();
+  std::cerr << (command.empty() ? "arcstart" : command) << ": " << error.what() << "\n";
 }
 
 }  // namespace
@@ -33,25 +32,22 @@ int main(int argc, char** argv) {
   spdlog::set_default_logger(spdlog::stderr_logger_mt("arcstart"));
   spdlog::set_level(spdlog::level::warn);
   spdlog::set_pattern("%n: %l: %v");
-  CLI::App program("arcstart: finds where a welding robot is to strike the arc");
-  program.set_version_flag("--version", ARCSTART_VERSION);
-  program.require_subcommand(1);
+  Program program("arcstart: finds where a welding robot is to strike the arc");
+  program.version(ARCSTART_VERSION);
+  program.require_command();
   program.footer("arcstart COMMAND --help tells all of a command.");
   int exit_code = 0;
-  add_scan_command(program, exit_code);
-  add_replay_command(program, exit_code);
-  add_extract_command(program, exit_code);
-  add_find_seam_command(program, exit_code);
-  add_calibrate_command(program, exit_code);
-  add_time_offset_command(program, exit_code);
-  add_check_command(program, exit_code);
-  add_monitor_command(program, exit_code);
-  add_cell_command(program, exit_code);
+  add_scan_command(program.app(), exit_code);
+  add_replay_command(program.app(), exit_code);
+  add_extract_command(program.app(), exit_code);
+  add_find_seam_command(program.app(), exit_code);
+  add_calibrate_command(program.app(), exit_code);
+  add_time_offset_command(program.app(), exit_code);
+  add_check_command(program.app(), exit_code);
+  add_monitor_command(program.app(), exit_code);
+  add_cell_command(program.app(), exit_code);
   try {
-    program.parse(argc, argv);
-    return exit_code;
-  } catch (const CLI::ParseError& error) {
-    return program.exit(error) == 0 ? 0 : 2;
+    return program.parse(argc, argv).value_or(exit_code);
   } catch (const std::exception& error) {
     complain(program, error);
     return dynamic_cast<const InputError*>(&error) != nullptr ? 2 : 1;

@@ -49,7 +49,7 @@ void ExtractionApp::count_lost(const image_t& image) {
   health_.last_error = fmt::format(
       "{} images lost before seq {}: see the receive buffer's size and the camera's statistics",
       lost, image.seq);
-  spdlog::warn("{}", health_.last_error);
+  spdlog::warn(health_.last_error);
 }
 
 std::string ExtractionApp::grey_values(const image_t& image, GreyImage& grey) {
@@ -68,7 +68,7 @@ std::string ExtractionApp::grey_values(const image_t& image, GreyImage& grey) {
   }
   if (!error.empty()) {
     health_.last_error = fmt::format("image seq {}: {}", image.seq, error);
-    spdlog::warn("{}", health_.last_error);
+    spdlog::warn(health_.last_error);
     return error;
   }
   grey = {

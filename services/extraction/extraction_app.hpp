@@ -7,7 +7,7 @@
 #include <opencv2/core.hpp>
 #include <string>
 
-#include "common/bus.hpp"
+#include "common/bus/bus.hpp"
 #include "common/service.hpp"
 #include "services/extraction/stripe_extractor.hpp"
 

@@ -7,7 +7,7 @@
 #include <memory>
 #include <utility>
 
-#include "common/calibration_message.hpp"
+#include "common/bus/calibration_message.hpp"
 #include "common/time.hpp"
 
 namespace arcstart::reconstruction {
@@ -110,8 +110,8 @@ void ReconstructionApp::take_calibration(const calibration_t& message) try {
   calibration_refused_.clear();
   if (bytes == calibration_bytes_) return;
   calibration_bytes_ = bytes;
-  spdlog::info("calibration {} of {}, made by: {}", calibration->id, calibration->sensor,
-               calibration->origin);
+  spdlog::info(fmt::format("calibration {} of {}, made by: {}", calibration->id,
+                           calibration->sensor, calibration->origin));
   reconstruction_.take_calibration(std::move(calibration));
   publish_profiles();
 } catch (const CalibrationError& error) {

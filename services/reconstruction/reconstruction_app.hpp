@@ -9,7 +9,7 @@
 #include <string>
 #include <vector>
 
-#include "common/bus.hpp"
+#include "common/bus/bus.hpp"
 #include "common/service.hpp"
 #include "services/reconstruction/reconstruction.hpp"
 

@@ -1,5 +1,6 @@
 #include "services/sensor_capture/sensor_capture_app.hpp"
 
+#include <fmt/core.h>
 #include <spdlog/spdlog.h>
 
 #include <algorithm>
@@ -102,7 +103,7 @@ void SensorCaptureApp::take(Frame& frame, std::int64_t now) {
 }
 
 void SensorCaptureApp::take(const CameraFound& found, std::int64_t now) {
-  spdlog::info("camera: {}", found.description);
+  spdlog::info(fmt::format("camera: {}", found.description));
   found_ = true;
   starting_ = false;
   camera_trouble_.clear();
@@ -149,8 +150,8 @@ void SensorCaptureApp::take_camera_command(const camera_command_t& command) {
   known_commands_.push_back(command.command_id);
   if (known_commands_.size() > kCommandsRemembered) known_commands_.pop_front();
   if (owner_.scanning() || !found_) {
-    spdlog::warn("camera command {} is refused: {}", command.command_id,
-                 found_ ? "a scan is running" : camera_trouble_);
+    spdlog::warn(fmt::format("camera command {} is refused: {}", command.command_id,
+                             found_ ? "a scan is running" : camera_trouble_));
     return;
   }
   if (command_) end_command("another has come");
@@ -166,8 +167,8 @@ void SensorCaptureApp::take_camera_command(const camera_command_t& command) {
 }
 
 void SensorCaptureApp::end_command(const std::string& why) {
-  spdlog::warn("camera command {} ends, {} images were not taken: {}", command_->command_id,
-               command_->left, why);
+  spdlog::warn(fmt::format("camera command {} ends, {} images were not taken: {}",
+                           command_->command_id, command_->left, why));
   command_.reset();
 }
 

@@ -5,7 +5,7 @@
 #include <fstream>
 #include <vector>
 
-#include "common/calibration_message.hpp"
+#include "common/bus/calibration_message.hpp"
 #include "services/calibration/files/calibration_file.hpp"
 #include "tests/calibration/support/sample_file.hpp"
 

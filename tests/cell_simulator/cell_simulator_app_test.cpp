@@ -1,6 +1,8 @@
 // In a network of its own: the camera's control port is fixed.
 #include "services/cell_simulator/cell_simulator_app.hpp"
 
+#include <yaml-cpp/yaml.h>
+
 #include <algorithm>
 #include <catch2/catch.hpp>
 #include <chrono>

@@ -1,4 +1,4 @@
-#include "common/bus.hpp"
+#include "common/bus/bus.hpp"
 
 #include <catch2/catch.hpp>
 #include <limits>

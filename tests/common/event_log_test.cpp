@@ -1,5 +1,5 @@
 // Judge of sound files: liblcm's own lcm::LogFile, reading and writing.
-#include "common/event_log.hpp"
+#include "common/bus/event_log.hpp"
 
 #include <unistd.h>
 

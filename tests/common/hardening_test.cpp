@@ -4,7 +4,7 @@
 #include <fstream>
 #include <sstream>
 
-#include "common/message_checks.hpp"
+#include "common/bus/message_checks.hpp"
 
 using namespace arcstart;
 

@@ -6,7 +6,7 @@
 #include <span>
 #include <vector>
 
-#include "common/event_log.hpp"
+#include "common/bus/event_log.hpp"
 
 namespace {
 

@@ -4,7 +4,7 @@
 #include <cstdlib>
 #include <vector>
 
-#include "common/message_checks.hpp"
+#include "common/bus/message_checks.hpp"
 
 namespace {
 

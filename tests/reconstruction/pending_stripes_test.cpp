@@ -1,4 +1,6 @@
 // The order of decisions, through the whole of Reconstruction without a bus.
+#include <fmt/format.h>
+
 #include <catch2/catch.hpp>
 #include <string>
 #include <vector>

@@ -5,7 +5,7 @@
 #include <string>
 #include <vector>
 
-#include "common/calibration_message.hpp"
+#include "common/bus/calibration_message.hpp"
 #include "services/reconstruction/reconstruction_app.hpp"
 #include "tests/reconstruction/synthetic_cell.hpp"
 

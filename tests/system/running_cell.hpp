@@ -11,7 +11,7 @@
 #include <string>
 #include <vector>
 
-#include "common/bus.hpp"
+#include "common/bus/bus.hpp"
 #include "common/service.hpp"
 
 namespace arcstart {

@@ -134,9 +134,9 @@ void CaptureDesk::begin_work(std::int8_t state, std::string activity, Work work)
 
 void CaptureDesk::finish_work() {
   Result result = work_.get();
-  if (!result.failure.empty()) spdlog::warn("calibration: {}", result.failure);
+  if (!result.failure.empty()) spdlog::warn(fmt::format("calibration: {}", result.failure));
   if (!result.verdict.empty()) {
-    spdlog::info("calibration {}: {}", result.calibration_id, result.verdict);
+    spdlog::info(fmt::format("calibration {}: {}", result.calibration_id, result.verdict));
     state_.calibration_id = std::move(result.calibration_id);
     state_.verdict = std::move(result.verdict);
   }

@@ -11,7 +11,7 @@
 #include <future>
 #include <string>
 
-#include "common/bus.hpp"
+#include "common/bus/bus.hpp"
 #include "common/service.hpp"
 #include "services/calibration/calibration_settings.hpp"
 #include "services/calibration/capture/capture_dataset.hpp"

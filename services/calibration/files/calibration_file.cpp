@@ -1,6 +1,7 @@
 #include "services/calibration/files/calibration_file.hpp"
 
 #include <fmt/format.h>
+#include <yaml-cpp/yaml.h>
 
 #include <algorithm>
 #include <array>

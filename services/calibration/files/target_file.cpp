@@ -1,6 +1,7 @@
 #include "services/calibration/files/target_file.hpp"
 
 #include <fmt/format.h>
+#include <yaml-cpp/yaml.h>
 
 #include <array>
 #include <charconv>

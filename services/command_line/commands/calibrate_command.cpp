@@ -9,6 +9,7 @@
 #include <memory>
 #include <stdexcept>
 
+#include "common/options.hpp"
 #include "common/time.hpp"
 #include "services/calibration/calibration_settings.hpp"
 #include "services/calibration/files/calibration_file.hpp"
@@ -172,47 +173,45 @@ int run_or_complain(const Options& options) try {
 void add_calibrate_command(CLI::App& parent, int& exit_code) {
   auto options = std::make_shared<Options>();
   options->names.made = utime_now();
-  CLI::App* command = parent.add_subcommand(
-      "calibrate", "Camera, laser plane and hand-eye from images of a plate and the robot's poses");
-  command->add_option("folder", options->folder,
-                      "Holds plate.yaml, poses.csv, grid/NNNN.png and laser/NNNN.png");
-  command->add_flag(
-      "--live", options->live,
-      "In a running cell instead: captures pose after pose and has arcstart-calibration "
-      "solve; a simulated cell drives the poses itself");
-  command->add_option("--poses", options->poses, "With --live: poses in a simulated cell")
-      ->check(CLI::Range(1, 1000))
-      ->capture_default_str();
+  Command command(parent, "calibrate",
+                  "Camera, laser plane and hand-eye from images of a plate and the robot's poses");
+  command.option("folder", options->folder,
+                 "Holds plate.yaml, poses.csv, grid/NNNN.png and laser/NNNN.png");
+  command.flag("--live", options->live,
+               "In a running cell instead: captures pose after pose and has arcstart-calibration "
+               "solve; a simulated cell drives the poses itself");
+  command.option("--poses", options->poses, "With --live: poses in a simulated cell")
+      .between(1, 1000)
+      .show_default();
   command
-      ->add_option("--seed", options->seed,
-                   "With --live: seed of a simulated plate; -1: the one in force")
-      ->capture_default_str();
-  command->add_flag("--continue", options->go_on,
-                    "With --live: keep the poses that were captured before");
-  command->add_option("-o,--output", options->output,
-                      "File for the calibration; a report stands beside it, .html and .json "
-                      "(default: FOLDER/calibration.yaml)");
+      .option("--seed", options->seed,
+              "With --live: seed of a simulated plate; -1: the one in force")
+      .show_default();
+  command.flag("--continue", options->go_on,
+               "With --live: keep the poses that were captured before");
+  command.option("-o,--output", options->output,
+                 "File for the calibration; a report stands beside it, .html and .json "
+                 "(default: FOLDER/calibration.yaml)");
   command
-      ->add_option("--cell", options->cell,
-                   "The cell's file, cell.yaml, whose section calibration holds the limits")
-      ->check(CLI::ExistingFile);
+      .option("--cell", options->cell,
+              "The cell's file, cell.yaml, whose section calibration holds the limits")
+      .existing_file();
   command
-      ->add_option("--channel", options->channel,
-                   "Colour channel of the laser; needed for true colour alone")
-      ->check(CLI::IsMember({"r", "g", "b"}));
-  command->add_option("--sensor", options->names.sensor, "Whose calibration it is")
-      ->capture_default_str();
-  command->add_option("--robot", options->names.robot, "On which robot")->capture_default_str();
-  command->add_option("--tool", options->names.tool, "The robot's tool frame of the poses")
-      ->capture_default_str();
+      .option("--channel", options->channel,
+              "Colour channel of the laser; needed for true colour alone")
+      .one_of({"r", "g", "b"});
+  command.option("--sensor", options->names.sensor, "Whose calibration it is").show_default();
+  command.option("--robot", options->names.robot, "On which robot").show_default();
+  command.option("--tool", options->names.tool, "The robot's tool frame of the poses")
+      .show_default();
   command
-      ->add_option("--time-offset", options->names.time_offset,
-                   "Added to an image's time to look up the position, s; known from elsewhere")
-      ->check(CLI::Range(-5.0, 5.0))
-      ->capture_default_str();
-  command->add_flag("--without-laser", options->without_laser,
-                    "Judge camera and hand-eye alone; no calibration is written");
-  command->footer(
+      .option("--time-offset", options->names.time_offset,
+              "Added to an image's time to look up the position, s; known from elsewhere")
+      .between(-5.0, 5.0)
+      .show_default();
+  command.flag("--without-laser", options->without_laser,
+               "Judge camera and hand-eye alone; no calibration is written");
+  command.footer(
       "plate.yaml: pattern (circles, asymmetric_circles, chessboard), columns, rows, pitch_mm "
       "(OpenCV's square size),\nradius_mm, origin_dot_radius_mm where the first dot is larger. "
       "poses.csv: index,x,y,z,qw,qx,qy,qz, tool in base, mm.\nlaser/ may be absent where grid/ "
@@ -220,7 +219,7 @@ void add_calibrate_command(CLI::App& parent, int& exit_code) {
       "the stripe too. JSON goes to standard output.\nExit: 0 made and within its limits; 1 "
       "refused "
       "or a limit missed; 2 bad input.");
-  command->callback([options, &exit_code] { exit_code = run_or_complain(*options); });
+  command.run([options, &exit_code] { exit_code = run_or_complain(*options); });
 }
 
 }  // namespace arcstart::command_line

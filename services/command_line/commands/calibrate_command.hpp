@@ -1,7 +1,9 @@
 // arcstart calibrate: a calibration from a folder of images and poses.
 #pragma once
 
-#include <CLI/CLI.hpp>
+namespace CLI {
+class App;
+}  // namespace CLI
 
 namespace arcstart::command_line {
 

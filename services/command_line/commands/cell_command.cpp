@@ -5,7 +5,8 @@
 #include <nlohmann/json.hpp>
 #include <optional>
 
-#include "common/bus.hpp"
+#include "common/bus/bus.hpp"
+#include "common/options.hpp"
 #include "common/service.hpp"
 #include "common/time.hpp"
 #include "services/command_line/output/seam_error.hpp"
@@ -108,24 +109,20 @@ int compare(Bus& bus, const CellRequest& request) {
 
 void add_cell_command(CLI::App& parent, int& exit_code) {
   auto request = std::make_shared<CellRequest>();
-  CLI::App* command = parent.add_subcommand(
-      "cell",
+  Command command(
+      parent, "cell",
       "The simulated cell: change its scene, or hold the seam that was found against the truth");
   command
-      ->add_option("--scene", request->scene,
-                   "Show the empty table or the work: background or workpiece")
-      ->check(CLI::IsMember({"background", "workpiece"}));
-  command->add_option("--seed", request->seed,
-                      "Seed of the scene; without it the one in force stays");
-  command->add_flag("--verdict", request->verdict,
-                    "Print the seam on the bus beside the truth; exit 0 where it is right");
-  command->add_option("--cell", request->cell,
-                      "The cell's file, for its bus; without it the defaults");
-  command->add_option("--sensor", request->sensor, "Sensor whose seam is meant")
-      ->capture_default_str();
-  command->add_option("--timeout", request->timeout_s, "Longest wait for an answer; s")
-      ->capture_default_str();
-  command->callback([request, &exit_code] {
+      .option("--scene", request->scene,
+              "Show the empty table or the work: background or workpiece")
+      .one_of({"background", "workpiece"});
+  command.option("--seed", request->seed, "Seed of the scene; without it the one in force stays");
+  command.flag("--verdict", request->verdict,
+               "Print the seam on the bus beside the truth; exit 0 where it is right");
+  command.option("--cell", request->cell, "The cell's file, for its bus; without it the defaults");
+  command.option("--sensor", request->sensor, "Sensor whose seam is meant").show_default();
+  command.option("--timeout", request->timeout_s, "Longest wait for an answer; s").show_default();
+  command.run([request, &exit_code] {
     if (request->verdict == !request->scene.empty()) {
       fmt::print(stderr, "cell: give either --scene or --verdict\n");
       exit_code = 2;

@@ -1,7 +1,9 @@
 // `arcstart cell`: the simulated cell, from the command line.
 #pragma once
 
-#include <CLI/CLI.hpp>
+namespace CLI {
+class App;
+}  // namespace CLI
 
 namespace arcstart::command_line {
 

@@ -6,6 +6,7 @@
 #include <memory>
 #include <nlohmann/json.hpp>
 
+#include "common/options.hpp"
 #include "services/calibration/calibration_settings.hpp"
 #include "services/calibration/files/calibration_file.hpp"
 #include "services/calibration/sweeps/drift_check.hpp"
@@ -92,23 +93,23 @@ int run(const Options& options) {
 
 void add_check_command(CLI::App& parent, int& exit_code) {
   auto options = std::make_shared<Options>();
-  CLI::App* command = parent.add_subcommand(
-      "check", "Whether a calibration still holds, from scans of one thing from two sides");
-  options->sweeps.add_to(*command);
+  Command command(parent, "check",
+                  "Whether a calibration still holds, from scans of one thing from two sides");
+  options->sweeps.add_to(command);
   command
-      ->add_option("--sphere-radius", options->sphere_radius_mm,
-                   "The thing is a ball of this radius; without it flat faces are compared; mm")
-      ->check(CLI::Range(1.0, 500.0));
-  auto* limit = command
-                    ->add_option("--limit", options->limit_mm,
-                                 "By how much the scans may disagree, in place of cell.yaml's "
-                                 "calibration.check_mm; mm")
-                    ->check(CLI::PositiveNumber);
-  command->add_option("--cell", options->cell, "The cell's file, cell.yaml, which holds the limit")
-      ->check(CLI::ExistingFile)
-      ->excludes(limit);
-  command->add_flag("--json", options->json, "Print all that was found on standard output; mm");
-  command->footer(
+      .option("--sphere-radius", options->sphere_radius_mm,
+              "The thing is a ball of this radius; without it flat faces are compared; mm")
+      .between(1.0, 500.0);
+  command
+      .option("--limit", options->limit_mm,
+              "By how much the scans may disagree, in place of cell.yaml's "
+              "calibration.check_mm; mm")
+      .positive();
+  command.option("--cell", options->cell, "The cell's file, cell.yaml, which holds the limit")
+      .existing_file()
+      .excludes({"--limit"});
+  command.flag("--json", options->json, "Print all that was found on standard output; mm");
+  command.footer(
       "Record (scripts/record) two scans or more of the same thing, the tool turned by 40 deg or "
       "more between them, best by\n"
       "180 deg about the vertical; one file or several. A dull ball of 15 to 40 mm radius tells "
@@ -121,7 +122,7 @@ void add_check_command(CLI::App& parent, int& exit_code) {
       "four times what the\n"
       "calibration itself expects.\n"
       "Exit: 0 it holds; 1 it has drifted, or refused: it says what is missing; 2 bad input.");
-  command->callback([options, &exit_code] { exit_code = run(*options); });
+  command.run([options, &exit_code] { exit_code = run(*options); });
 }
 
 }  // namespace arcstart::command_line

@@ -1,7 +1,9 @@
 // arcstart check: whether a calibration still holds, without a plate.
 #pragma once
 
-#include <CLI/CLI.hpp>
+namespace CLI {
+class App;
+}  // namespace CLI
 
 namespace arcstart::command_line {
 

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cstdio>
+#include <cstdlib>
 #include <filesystem>
 #include <fstream>
 #include <iostream>
@@ -16,6 +17,7 @@
 #include <vector>
 
 #include "common/configuration.hpp"
+#include "common/options.hpp"
 #include "services/command_line/output/terminal.hpp"
 #include "services/extraction/files/image_file.hpp"
 #include "services/extraction/files/stripe_picture.hpp"
@@ -186,54 +188,55 @@ int run(const Options& options) {
 
 void add_extract_command(CLI::App& parent, int& exit_code) {
   auto options = std::make_shared<Options>();
-  CLI::App* command = parent.add_subcommand(
-      "extract", "Find the laser stripe's centres in images: CSV of u,v,strength,width,segment,sd");
+  Command command(
+      parent, "extract",
+      "Find the laser stripe's centres in images: CSV of u,v,strength,width,segment,sd");
   command
-      ->add_option("images", options->images,
-                   "Images, or folders of images: PNG, PGM, BMP or TIFF, 8 bit")
-      ->required()
-      ->check(CLI::ExistingPath);
-  command->add_option("--csv", options->csv,
-                      "File for the centres; without it they go to standard output");
-  command->add_flag(
+      .option("images", options->images,
+              "Images, or folders of images: PNG, PGM, BMP or TIFF, 8 bit")
+      .required()
+      .existing_path();
+  command.option("--csv", options->csv,
+                 "File for the centres; without it they go to standard output");
+  command.flag(
       "--all", options->all,
       "Second candidates (reflections and the like) too, with a column rank: 0 chosen, 1 second");
-  command->add_flag("--as-found", options->as_found,
-                    "Each centre where its own pixel's neighbourhood says, not fitted along the "
-                    "stripe");
-  command->add_option("--off", options->off, "The same view with the laser off, to be subtracted")
-      ->check(CLI::ExistingFile);
+  command.flag("--as-found", options->as_found,
+               "Each centre where its own pixel's neighbourhood says, not fitted along the "
+               "stripe");
+  command.option("--off", options->off, "The same view with the laser off, to be subtracted")
+      .existing_file();
   command
-      ->add_option("--channel", options->channel,
-                   "Colour channel of the laser; needed for true colour alone")
-      ->check(CLI::IsMember({"r", "g", "b"}));
-  command->add_option(
+      .option("--channel", options->channel,
+              "Colour channel of the laser; needed for true colour alone")
+      .one_of({"r", "g", "b"});
+  command.option(
       "--picture", options->picture,
       "PNG to draw the centres into, over the image, coloured by segment; for several images NAME "
       "is added: OUT_NAME.png");
   command
-      ->add_option(
-          "--sigma", options->sigma_px,
-          "Of the Gaussian kernels, px; 0: from the stripe's width in each image (the default)")
-      ->check([](const std::string& text) -> std::string {
-        double value = -1;
-        const bool number = CLI::detail::lexical_cast(text, value);
+      .option("--sigma", options->sigma_px,
+              "Of the Gaussian kernels, px; 0: from the stripe's width in each image (the default)")
+      .check([](const std::string& text) -> std::string {
+        char* end = nullptr;
+        const double value = std::strtod(text.c_str(), &end);
+        const bool number = !text.empty() && *end == 0;
         return number && (value == 0 || (value >= 0.8 && value <= 12))
                    ? ""
                    : "must be 0 or lie between 0.8 and 12";
       });
   command
-      ->add_option("--cell", options->cell,
-                   "The cell's file, cell.yaml, of which the section extraction is used")
-      ->check(CLI::ExistingFile);
-  command->footer(
+      .option("--cell", options->cell,
+              "The cell's file, cell.yaml, of which the section extraction is used")
+      .existing_file();
+  command.footer(
       "Columns: u to the right and v down in px, pixel centres at integers, the lens' distortion "
       "as seen; strength in grey "
       "values;\nwidth, the standard deviation of the stripe's profile, px; sd, the standard "
       "deviation of the centre, px.\n"
       "Several images get a first column, image. Exit: 0 stripe found (in one of several at "
       "least); 1 none found; 2 bad input.");
-  command->callback([options, &exit_code] { exit_code = run(*options); });
+  command.run([options, &exit_code] { exit_code = run(*options); });
 }
 
 }  // namespace arcstart::command_line

@@ -1,7 +1,9 @@
 // arcstart extract: the stripe's centres in images from files.
 #pragma once
 
-#include <CLI/CLI.hpp>
+namespace CLI {
+class App;
+}  // namespace CLI
 
 namespace arcstart::command_line {
 

@@ -10,6 +10,7 @@
 #include <memory>
 #include <stdexcept>
 
+#include "common/options.hpp"
 #include "services/command_line/clouds/cloud_picture.hpp"
 #include "services/command_line/clouds/point_cloud_file.hpp"
 #include "services/command_line/output/seam_json.hpp"
@@ -195,73 +196,64 @@ int run(const Options& options) {
   return result.verdict == seam_finding::SeamResult::Verdict::kFound ? 0 : 1;
 }
 
-CLI::Validator finite_vector() {
-  return CLI::Validator(
-      [](std::string& text) -> std::string {
-        const double value = std::strtod(text.c_str(), nullptr);
-        return std::isfinite(value) && std::abs(value) < 1e9 ? "" : "must be finite, is " + text;
-      },
-      "");
+std::string finite(const std::string& text) {
+  const double value = std::strtod(text.c_str(), nullptr);
+  return std::isfinite(value) && std::abs(value) < 1e9 ? "" : "must be finite, is " + text;
 }
 
 }  // namespace
 
 void add_find_seam_command(CLI::App& parent, int& exit_code) {
   auto options = std::make_shared<Options>();
-  CLI::App* command =
-      parent.add_subcommand("find-seam", "Find the weld seam in a point cloud from a file");
-  command->add_option("CLOUD", options->cloud, "PCD (ascii, binary) or PLY (ascii, little endian)")
-      ->required();
-  auto* background = command->add_option("--background", options->background,
-                                         "Cloud of the empty cell, which is taken away");
+  Command command(parent, "find-seam", "Find the weld seam in a point cloud from a file");
+  command.option("CLOUD", options->cloud, "PCD (ascii, binary) or PLY (ascii, little endian)")
+      .required();
+  command.option("--background", options->background,
+                 "Cloud of the empty cell, which is taken away");
   command
-      ->add_flag("--remove-plane", options->remove_plane,
-                 "Take away the dominant plane, what lies up to five times the cloud's tolerance "
-                 "above it, and all below")
-      ->excludes(background);
-  command->add_option("--units", options->units, "Of the files and of --viewpoint")
-      ->check(CLI::IsMember({"mm", "m"}))
-      ->capture_default_str();
+      .flag("--remove-plane", options->remove_plane,
+            "Take away the dominant plane, what lies up to five times the cloud's tolerance "
+            "above it, and all below")
+      .excludes({"--background"});
+  command.option("--units", options->units, "Of the files and of --viewpoint")
+      .one_of({"mm", "m"})
+      .show_default();
   command
-      ->add_option("--viewpoint", options->viewpoint,
-                   "Where the sensor was, x,y,z; without it the file's, else 1 m above the "
-                   "dominant plane, on the side with more points")
-      ->delimiter(',')
-      ->expected(3)
-      ->check(finite_vector());
+      .option("--viewpoint", options->viewpoint,
+              "Where the sensor was, x,y,z; without it the file's, else 1 m above the "
+              "dominant plane, on the side with more points")
+      .vector()
+      .check(finite);
   command
-      ->add_option("--search-direction", options->search_direction,
-                   "The way of the search, x,y,z: where it begins, the seam starts; without it "
-                   "along the longest seam's increasing x, then y, then z")
-      ->delimiter(',')
-      ->expected(3)
-      ->check(finite_vector());
+      .option("--search-direction", options->search_direction,
+              "The way of the search, x,y,z: where it begins, the seam starts; without it "
+              "along the longest seam's increasing x, then y, then z")
+      .vector()
+      .check(finite);
   command
-      ->add_option(
-          "--joint", options->joint,
-          "Joint wanted, else the cell's seam_finding.joint_type, which is tee where it is "
-          "not said. any: tee, lap, butt or v; an outside_corner looks like the edge of a "
-          "box and must be asked for; lap, butt and v need --search-direction")
-      ->check(CLI::IsMember({"any", "tee", "corner", "outside_corner", "lap", "butt", "v"}));
-  command->add_flag("--json", options->json,
-                    "Print the answer on standard output, keys as in seam_t (mm and rad)");
-  command->add_option("--picture", options->picture,
-                      "PNG of the cloud with background, plates, seam and start, from two sides");
-  command->add_option(
-      "--csv", options->stations,
-      "CSV of the places along the seam: distance from the start, position, "
-      "residual from the line (mm, empty where not measured), tack weld (0 or 1), gap "
-      "(mm, likewise)");
-  command->add_option("--cell", options->cell,
-                      "The cell's file, cell.yaml, whose section seam_finding is to be used");
-  command->footer(
+      .option("--joint", options->joint,
+              "Joint wanted, else the cell's seam_finding.joint_type, which is tee where it is "
+              "not said. any: tee, lap, butt or v; an outside_corner looks like the edge of a "
+              "box and must be asked for; lap, butt and v need --search-direction")
+      .one_of({"any", "tee", "corner", "outside_corner", "lap", "butt", "v"});
+  command.flag("--json", options->json,
+               "Print the answer on standard output, keys as in seam_t (mm and rad)");
+  command.option("--picture", options->picture,
+                 "PNG of the cloud with background, plates, seam and start, from two sides");
+  command.option("--csv", options->stations,
+                 "CSV of the places along the seam: distance from the start, position, "
+                 "residual from the line (mm, empty where not measured), tack weld (0 or 1), gap "
+                 "(mm, likewise)");
+  command.option("--cell", options->cell,
+                 "The cell's file, cell.yaml, whose section seam_finding is to be used");
+  command.footer(
       "Without --background or --remove-plane nothing is taken away, and the line of a plate on "
       "the table counts as a seam.\n"
       "Exit: 0 found; 1 ambiguous or refused; 2 bad input.");
-  command->callback([options, &exit_code] {
+  command.run([options, &exit_code] {
     const auto& way = options->search_direction;
     if (!way.empty() && way[0] == 0 && way[1] == 0 && way[2] == 0)
-      throw CLI::ValidationError("--search-direction", "must not be 0,0,0");
+      Command::refuse("--search-direction", "must not be 0,0,0");
     exit_code = run(*options);
   });
 }

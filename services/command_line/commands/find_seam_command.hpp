@@ -1,7 +1,9 @@
 // arcstart find-seam: the weld seam in a point cloud from a file.
 #pragma once
 
-#include <CLI/CLI.hpp>
+namespace CLI {
+class App;
+}  // namespace CLI
 
 namespace arcstart::command_line {
 

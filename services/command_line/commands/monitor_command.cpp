@@ -11,7 +11,8 @@
 #include <set>
 #include <utility>
 
-#include "common/bus.hpp"
+#include "common/bus/bus.hpp"
+#include "common/options.hpp"
 #include "common/time.hpp"
 #include "services/command_line/live/scan_client.hpp"
 #include "services/command_line/live/traffic.hpp"
@@ -140,34 +141,32 @@ int run(const Options& options) {
 
 void add_monitor_command(CLI::App& parent, int& exit_code) {
   auto options = std::make_shared<Options>();
-  CLI::App* command = parent.add_subcommand("monitor", "Show what is on the bus, a line a channel");
-  command->add_option(
+  Command command(parent, "monitor", "Show what is on the bus, a line a channel");
+  command.option(
       "--cell", options->cell,
       "The cell's file, cell.yaml, of which the section bus is used; without it the bus is at its "
       "defaults");
-  command->add_flag("--once", options->once,
-                    "Listen for 2 s (or --seconds), print one table and end");
-  command->add_option("--seconds", options->seconds, "End after so many seconds")
-      ->check(CLI::Range(0.1, 1e7));
-  command->add_flag("--json", options->json,
-                    "Print each table as one line of JSON, an object a channel");
+  command.flag("--once", options->once, "Listen for 2 s (or --seconds), print one table and end");
+  command.option("--seconds", options->seconds, "End after so many seconds").between(0.1, 1e7);
+  command.flag("--json", options->json,
+               "Print each table as one line of JSON, an object a channel");
   command
-      ->add_flag("--seams", options->seams,
-                 "Instead of the table print each SEAM once, one JSON object a line; exit 0 where "
-                 "all are found or "
-                 "backgrounds stored")
-      ->excludes("--once", "--json");
+      .flag("--seams", options->seams,
+            "Instead of the table print each SEAM once, one JSON object a line; exit 0 where "
+            "all are found or "
+            "backgrounds stored")
+      .excludes({"--once", "--json"});
   command
-      ->add_option("--until-ready", options->until_ready,
-                   "Instead of the table wait, at most so many seconds, until every service that a "
-                   "scan needs works; exit 1 names those that do not")
-      ->check(CLI::Range(0.1, 1e7))
-      ->excludes("--once", "--json", "--seams");
+      .option("--until-ready", options->until_ready,
+              "Instead of the table wait, at most so many seconds, until every service that a "
+              "scan needs works; exit 1 names those that do not")
+      .between(0.1, 1e7)
+      .excludes({"--once", "--json", "--seams"});
   command
-      ->add_flag("--print-urls", options->print_urls,
-                 "Only print the bus's LCM URLs, one a port, images last, and end")
-      ->group("For scripts");
-  command->footer(
+      .flag("--print-urls", options->print_urls,
+            "Only print the bus's LCM URLs, one a port, images last, and end")
+      .for_scripts();
+  command.footer(
       "A table a second until Ctrl-C: on a terminal over the one before, else one after the "
       "other.\n"
       "rate and kB/s are means of the last 5 s; size is the newest message's; age is the time "
@@ -176,7 +175,7 @@ void add_monitor_command(CLI::App& parent, int& exit_code) {
       "counts messages\n"
       "missing by their seq; undecodable those that are no message of the channel's type.\n"
       "Exit: 0 something was heard; 1 nothing was; 2 bad input.");
-  command->callback([options, &exit_code] { exit_code = run(*options); });
+  command.run([options, &exit_code] { exit_code = run(*options); });
 }
 
 }  // namespace arcstart::command_line

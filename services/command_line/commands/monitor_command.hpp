@@ -1,7 +1,9 @@
 // arcstart monitor: what is on the bus, a line a channel.
 #pragma once
 
-#include <CLI/CLI.hpp>
+namespace CLI {
+class App;
+}  // namespace CLI
 
 namespace arcstart::command_line {
 

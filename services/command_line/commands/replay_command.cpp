@@ -5,6 +5,7 @@
 #include <iostream>
 #include <memory>
 
+#include "common/options.hpp"
 #include "services/command_line/output/scan_pictures.hpp"
 #include "services/command_line/output/seam_json.hpp"
 #include "services/command_line/output/terminal.hpp"
@@ -98,48 +99,45 @@ int run(Options& options) {
 
 void add_replay_command(CLI::App& parent, int& exit_code) {
   auto options = std::make_shared<Options>();
-  CLI::App* command =
-      parent.add_subcommand("replay", "Run the whole pipeline on recordings and tell each SEAM");
-  command->add_option("LOG", options->paths, "Recordings by lcm-logger, merged by event time")
-      ->required();
-  command->add_flag("--json", options->json,
-                    "Print each SEAM on standard output, one object a line (mm and rad)");
-  command->add_option(
+  Command command(parent, "replay", "Run the whole pipeline on recordings and tell each SEAM");
+  command.option("LOG", options->paths, "Recordings by lcm-logger, merged by event time")
+      .required();
+  command.flag("--json", options->json,
+               "Print each SEAM on standard output, one object a line (mm and rad)");
+  command.option(
       "--cell", options->replay.cell,
       "The cell's file, cell.yaml, whose settings are to be used; without it those that the "
       "recording's STATUS states");
   command
-      ->add_option("--pictures", options->pictures,
-                   "Folder for what a person can look at of the last workpiece scan: cloud.pcd, "
-                   "cloud.ply, cloud.png and stripe.png")
-      ->check(CLI::ExistingDirectory);
-  command->add_option(
-      "--seams", options->seams,
-      "File for the encoded seam_t of every scan answered, in order, to compare two "
-      "builds by: of each its length (4 bytes, little-endian) and its bytes");
-  command->add_option("--background", options->replay.background,
-                      "Recording of a background scan, to be used in place of those in LOG");
-  command->add_option("--sensor", options->replay.sensor,
-                      "Sensor to replay, needed where LOG holds several");
-  command->add_option("--robot", options->replay.robot,
-                      "Robot that carries it; without it the calibration's");
+      .option("--pictures", options->pictures,
+              "Folder for what a person can look at of the last workpiece scan: cloud.pcd, "
+              "cloud.ply, cloud.png and stripe.png")
+      .existing_folder();
+  command.option("--seams", options->seams,
+                 "File for the encoded seam_t of every scan answered, in order, to compare two "
+                 "builds by: of each its length (4 bytes, little-endian) and its bytes");
+  command.option("--background", options->replay.background,
+                 "Recording of a background scan, to be used in place of those in LOG");
+  command.option("--sensor", options->replay.sensor,
+                 "Sensor to replay, needed where LOG holds several");
+  command.option("--robot", options->replay.robot,
+                 "Robot that carries it; without it the calibration's");
   command
-      ->add_flag(
-          "--print-source-channels", options->print_channels,
-          "Only print the channels with which replay begins, as a regular expression, and end")
-      ->group("For scripts");
+      .flag("--print-source-channels", options->print_channels,
+            "Only print the channels with which replay begins, as a regular expression, and end")
+      .for_scripts();
   command
-      ->add_flag("--print-settings", options->print_settings,
-                 "Only print the settings that replay would use, as a cell.yaml, and end")
-      ->group("For scripts");
-  command->footer(
+      .flag("--print-settings", options->print_settings,
+            "Only print the settings that replay would use, as a cell.yaml, and end")
+      .for_scripts();
+  command.footer(
       "Begins with each scan's images where they were recorded, else with its stripes, else with "
       "its profiles;\n"
       "what was derived from them and recorded beside them is computed anew. Calibration and, "
       "without --background,\n"
       "the background scan come from the recording. The same recording gives the same bytes.\n"
       "Exit: 0 every workpiece scan found, or backgrounds alone, all stored; 1 not; 2 bad input.");
-  command->callback([options, &exit_code] { exit_code = run(*options); });
+  command.run([options, &exit_code] { exit_code = run(*options); });
 }
 
 }  // namespace arcstart::command_line

@@ -1,7 +1,9 @@
 // arcstart replay: the whole pipeline on recordings.
 #pragma once
 
-#include <CLI/CLI.hpp>
+namespace CLI {
+class App;
+}  // namespace CLI
 
 namespace arcstart::command_line {
 

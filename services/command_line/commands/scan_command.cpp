@@ -4,6 +4,7 @@
 #include <iostream>
 #include <memory>
 
+#include "common/options.hpp"
 #include "common/time.hpp"
 #include "services/command_line/live/scan_client.hpp"
 #include "services/command_line/output/seam_json.hpp"
@@ -61,38 +62,36 @@ int run(Options options) {
 
 void add_scan_command(CLI::App& parent, int& exit_code) {
   auto options = std::make_shared<Options>();
-  CLI::App* command = parent.add_subcommand(
-      "scan", "Run one scan in a live cell and print its SEAM as JSON (mm and rad)");
+  Command command(parent, "scan",
+                  "Run one scan in a live cell and print its SEAM as JSON (mm and rad)");
   command
-      ->add_option(
+      .option(
           "--kind", options->kind,
           "background: the empty cell, to be told from the work later; workpiece: find the seam")
-      ->required()
-      ->check(CLI::IsMember({"background", "workpiece"}));
-  command->add_option(
+      .required()
+      .one_of({"background", "workpiece"});
+  command.option(
       "--cell", options->cell,
       "The cell's file, cell.yaml, of which the section bus is used; without it the bus is at its "
       "defaults");
-  command->add_option("--sensor", options->instance.sensor, "Sensor that scans")
-      ->capture_default_str();
-  command->add_option("--robot", options->instance.robot, "Robot that carries it")
-      ->capture_default_str();
+  command.option("--sensor", options->instance.sensor, "Sensor that scans").show_default();
+  command.option("--robot", options->instance.robot, "Robot that carries it").show_default();
   command
-      ->add_option("--duration", options->request.longest_duration_s,
-                   "Longest duration of the scan, s; it may end earlier by Ctrl-C, or when the "
-                   "tool stands still "
-                   "where the cell is configured so")
-      ->capture_default_str()
-      ->check(CLI::Range(0.1, 3600.0));
+      .option("--duration", options->request.longest_duration_s,
+              "Longest duration of the scan, s; it may end earlier by Ctrl-C, or when the "
+              "tool stands still "
+              "where the cell is configured so")
+      .show_default()
+      .between(0.1, 3600.0);
   command
-      ->add_option("--timeout", options->request.timeout_s,
-                   "Longest wait, s, for the scan to begin, and for its seam after its end")
-      ->capture_default_str()
-      ->check(CLI::Range(0.1, 3600.0));
-  command->footer(
+      .option("--timeout", options->request.timeout_s,
+              "Longest wait, s, for the scan to begin, and for its seam after its end")
+      .show_default()
+      .between(0.1, 3600.0);
+  command.footer(
       "Ctrl-C stops the scan and prints what it gave; a second one ends this program alone.\n"
       "Exit: 0 seam found or background stored; 1 ambiguous, refused, or no answer; 2 bad input.");
-  command->callback([options, &exit_code] { exit_code = run(*options); });
+  command.run([options, &exit_code] { exit_code = run(*options); });
 }
 
 }  // namespace arcstart::command_line

@@ -1,7 +1,9 @@
 // arcstart scan: runs one scan in a live cell and prints its answer as JSON.
 #pragma once
 
-#include <CLI/CLI.hpp>
+namespace CLI {
+class App;
+}  // namespace CLI
 
 namespace arcstart::command_line {
 

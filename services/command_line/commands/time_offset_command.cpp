@@ -7,6 +7,7 @@
 #include <memory>
 #include <nlohmann/json.hpp>
 
+#include "common/options.hpp"
 #include "common/time.hpp"
 #include "services/calibration/files/calibration_file.hpp"
 #include "services/calibration/sweeps/time_offset.hpp"
@@ -80,13 +81,13 @@ int run(const Options& options) {
 
 void add_time_offset_command(CLI::App& parent, int& exit_code) {
   auto options = std::make_shared<Options>();
-  CLI::App* command = parent.add_subcommand(
-      "time-offset", "How late images are stamped against positions, from recorded sweeps");
-  options->sweeps.add_to(*command);
-  command->add_option("-o,--output", options->output,
-                      "File for the same calibration with the time offset found");
-  command->add_flag("--json", options->json, "Print all that was found on standard output; s, mm");
-  command->footer(
+  Command command(parent, "time-offset",
+                  "How late images are stamped against positions, from recorded sweeps");
+  options->sweeps.add_to(command);
+  command.option("-o,--output", options->output,
+                 "File for the same calibration with the time offset found");
+  command.flag("--json", options->json, "Print all that was found on standard output; s, mm");
+  command.footer(
       "Record a scan (scripts/record, arcstart scan) in which the robot sweeps to and fro over a "
       "flat face, a table or a\n"
       "plate, twice at one speed and twice at double that speed or more, and comes nearer to it "
@@ -99,7 +100,7 @@ void add_time_offset_command(CLI::App& parent, int& exit_code) {
       "late "
       "have -27.32 ms.\n"
       "Exit: 0 found; 1 refused, it says what is missing; 2 bad input.");
-  command->callback([options, &exit_code] { exit_code = run(*options); });
+  command.run([options, &exit_code] { exit_code = run(*options); });
 }
 
 }  // namespace arcstart::command_line

@@ -1,7 +1,9 @@
 // arcstart time-offset: how late the images are stamped, from sweeps.
 #pragma once
 
-#include <CLI/CLI.hpp>
+namespace CLI {
+class App;
+}  // namespace CLI
 
 namespace arcstart::command_line {
 

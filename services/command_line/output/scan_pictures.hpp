@@ -7,7 +7,7 @@
 #include <optional>
 #include <string>
 
-#include "common/bus.hpp"
+#include "common/bus/bus.hpp"
 #include "services/seam_finding/scan/scan_collector.hpp"
 #include "services/seam_finding/seam_finding_settings.hpp"
 

@@ -7,7 +7,7 @@
 #include <string>
 #include <vector>
 
-#include "common/message_checks.hpp"
+#include "common/bus/message_checks.hpp"
 
 namespace arcstart::command_line {
 

@@ -4,7 +4,7 @@
 
 #include <iostream>
 
-#include "common/calibration_message.hpp"
+#include "common/bus/calibration_message.hpp"
 #include "services/calibration/files/calibration_file.hpp"
 #include "services/command_line/output/terminal.hpp"
 #include "services/command_line/recordings/recording.hpp"
@@ -90,14 +90,14 @@ RecordedSweeps read_sweeps(const std::vector<std::string>& paths, const std::str
   return sweeps;
 }
 
-void SweepOptions::add_to(CLI::App& command) {
-  command.add_option("LOG", paths, "Recordings by lcm-logger, of one scan or several")->required();
+void SweepOptions::add_to(Command& command) {
+  command.option("LOG", paths, "Recordings by lcm-logger, of one scan or several").required();
   command
-      .add_option("--calibration", calibration,
-                  "The sensor's calibration file; without it the recording's")
-      ->check(CLI::ExistingFile);
-  command.add_option("--sensor", sensor, "Needed where LOG holds several");
-  command.add_option("--robot", robot, "That carries it; without it the calibration's");
+      .option("--calibration", calibration,
+              "The sensor's calibration file; without it the recording's")
+      .existing_file();
+  command.option("--sensor", sensor, "Needed where LOG holds several");
+  command.option("--robot", robot, "That carries it; without it the calibration's");
 }
 
 JudgedSweeps read_judged_sweeps(const SweepOptions& options, const std::string& command) {

@@ -1,12 +1,12 @@
 // Stripes and positions out of recordings, for what judges a calibration by sweeps.
 #pragma once
 
-#include <CLI/CLI.hpp>
 #include <functional>
 #include <optional>
 #include <string>
 #include <vector>
 
+#include "common/options.hpp"
 #include "services/calibration/sweeps/sweep_profiles.hpp"
 
 namespace arcstart::command_line {
@@ -30,7 +30,7 @@ struct SweepOptions {
   std::vector<std::string> paths;
   std::string calibration, sensor, robot;  // a calibration file; empty: the recording's
 
-  void add_to(CLI::App& command);
+  void add_to(Command& command);
 };
 
 // The recording and the calibration to judge it by. Throws as read_sweeps() does,

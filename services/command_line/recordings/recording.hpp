@@ -10,7 +10,7 @@
 #include <string>
 #include <vector>
 
-#include "common/event_log.hpp"
+#include "common/bus/event_log.hpp"
 #include "common/input_error.hpp"
 #include "services/command_line/recordings/event_order.hpp"
 #include "services/command_line/recordings/message_facts.hpp"

@@ -8,7 +8,7 @@
 #include <string>
 #include <vector>
 
-#include "common/bus.hpp"
+#include "common/bus/bus.hpp"
 #include "services/command_line/recordings/recording.hpp"
 
 namespace arcstart::command_line {

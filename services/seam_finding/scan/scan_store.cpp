@@ -6,7 +6,7 @@
 #include <charconv>
 #include <filesystem>
 
-#include "common/event_log.hpp"
+#include "common/bus/event_log.hpp"
 
 namespace arcstart::seam_finding {
 namespace {

@@ -3,12 +3,12 @@
 #include <fmt/format.h>
 #include <spdlog/spdlog.h>
 
-#include <CLI/CLI.hpp>
 #include <algorithm>
 #include <fstream>
 #include <map>
 #include <nlohmann/json.hpp>
 
+#include "common/options.hpp"
 #include "services/calibration/solve/calibrate.hpp"
 #include "tests/bench/calibration/calibration_in_use.hpp"
 #include "tests/bench/calibration/calibration_live.hpp"
@@ -156,27 +156,24 @@ bool write(const nlohmann::json& json, const std::string& path) {
 }  // namespace
 
 int main(int argc, char** argv) {
-  CLI::App options("Accuracy of a calibration from rendered images of a plate, 20 poses each");
+  Program options("Accuracy of a calibration from rendered images of a plate, 20 poses each");
   std::string json_path, folder;
   int seeds = 10, ratio_seeds = 20, trials = 10, experiments = 20;
-  options.add_option("--json", json_path, "Where the figures go, flat JSON");
-  options.add_option("--seeds", seeds, "Seeds 1 to N of the error rows, none left out")
-      ->capture_default_str();
-  options.add_option("--ratio-seeds", ratio_seeds, "Seeds 1 to N of the deviation's ratio")
-      ->capture_default_str();
-  options.add_option("--trials", trials, "Seeds 1 to N of the time offset")->capture_default_str();
-  options
-      .add_option("--experiments", experiments, "Seeds 1 to N of the experiment with the result")
-      ->capture_default_str();
+  options.option("--json", json_path, "Where the figures go, flat JSON");
+  options.option("--seeds", seeds, "Seeds 1 to N of the error rows, none left out").show_default();
+  options.option("--ratio-seeds", ratio_seeds, "Seeds 1 to N of the deviation's ratio")
+      .show_default();
+  options.option("--trials", trials, "Seeds 1 to N of the time offset").show_default();
+  options.option("--experiments", experiments, "Seeds 1 to N of the experiment with the result")
+      .show_default();
   bool live = false;
-  options.add_flag("--live", live,
-                   "Instead, calibrate three seeds through the real processes, in a network of its "
-                   "own");
-  options.add_option(
-      "--folder", folder,
-      "Instead, write the first seed's images and poses with a robot error of 0.1 mm, "
-      "0.01 deg as a folder for arcstart calibrate");
-  CLI11_PARSE(options, argc, argv);
+  options.flag("--live", live,
+               "Instead, calibrate three seeds through the real processes, in a network of its "
+               "own");
+  options.option("--folder", folder,
+                 "Instead, write the first seed's images and poses with a robot error of 0.1 mm, "
+                 "0.01 deg as a folder for arcstart calibrate");
+  if (const auto code = options.parse(argc, argv)) return *code;
   spdlog::set_level(spdlog::level::err);  // the tables alone
   const SensorSettings settings;
   PrintedPlate well, poor;

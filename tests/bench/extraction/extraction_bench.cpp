@@ -4,29 +4,29 @@
 
 #include <fmt/format.h>
 
-#include <CLI/CLI.hpp>
 #include <algorithm>
 #include <fstream>
 #include <opencv2/core.hpp>
 
+#include "common/options.hpp"
+
 int main(int argc, char** argv) {
   using namespace arcstart;
-  CLI::App options("Stripe extraction on rendered scenes of 1600 x 1200: accuracy, identity, time");
+  Program options("Stripe extraction on rendered scenes of 1600 x 1200: accuracy, identity, time");
   std::string json_path;
   int seeds = 8, rounds = 30;
   std::vector<std::string> parts;
-  options.add_option("--json", json_path, "Where the figures go, flat JSON");
-  options.add_option("--seeds", seeds, "Of each scene, 1 to N, none left out")
-      ->capture_default_str();
-  options.add_option("--rounds", rounds, "Of the timing")->capture_default_str();
+  options.option("--json", json_path, "Where the figures go, flat JSON");
+  options.option("--seeds", seeds, "Of each scene, 1 to N, none left out").show_default();
+  options.option("--rounds", rounds, "Of the timing").show_default();
   options
-      .add_option("--part", parts,
-                  "accuracy, disturbances, noise, real, identity or speed; all by default")
-      ->check(CLI::IsMember({"accuracy", "disturbances", "noise", "real", "identity", "speed"}));
+      .option("--part", parts,
+              "accuracy, disturbances, noise, real, identity or speed; all by default")
+      .one_of({"accuracy", "disturbances", "noise", "real", "identity", "speed"});
   std::string pictures;
-  options.add_option("--pictures", pictures, "Draw the scenes into this folder, measure nothing")
-      ->check(CLI::ExistingDirectory);
-  CLI11_PARSE(options, argc, argv);
+  options.option("--pictures", pictures, "Draw the scenes into this folder, measure nothing")
+      .existing_folder();
+  if (const auto code = options.parse(argc, argv)) return *code;
   cv::setNumThreads(1);
   if (!pictures.empty()) {
     arcstart::draw_scenes(pictures);

@@ -3,13 +3,13 @@
 // run. Run it under scripts/in-private-network.
 #include <fmt/format.h>
 
-#include <CLI/CLI.hpp>
 #include <filesystem>
 #include <fstream>
 #include <nlohmann/json.hpp>
 #include <opencv2/imgcodecs.hpp>
 #include <set>
 
+#include "common/options.hpp"
 #include "tests/extraction/support/scene_renderer.hpp"
 #include "tests/system/running_cell.hpp"
 
@@ -42,13 +42,13 @@ std::size_t heard_of(const Messages& messages, std::int64_t scan_id) {
 }  // namespace
 
 int main(int argc, char** argv) {
-  CLI::App options("Images a second over the bus through extraction, beside a bare subscriber");
+  Program options("Images a second over the bus through extraction, beside a bare subscriber");
   std::string json_path;
   double seconds = 20, rate = 100;
-  options.add_option("--json", json_path, "Where the figures go, flat JSON");
-  options.add_option("--seconds", seconds, "Of the scan")->capture_default_str();
-  options.add_option("--rate", rate, "Images a second")->capture_default_str();
-  CLI11_PARSE(options, argc, argv);
+  options.option("--json", json_path, "Where the figures go, flat JSON");
+  options.option("--seconds", seconds, "Of the scan").show_default();
+  options.option("--rate", rate, "Images a second").show_default();
+  if (const auto code = options.parse(argc, argv)) return *code;
 
   const std::string folder = write_images();
   RunningCell cell("bench_extraction_bus",

@@ -2,30 +2,30 @@
 #include <fmt/format.h>
 #include <spdlog/spdlog.h>
 
-#include <CLI/CLI.hpp>
 #include <fstream>
 
+#include "common/options.hpp"
 #include "tests/bench/seam/seam_scenes.hpp"
 
 int main(int argc, char** argv) {
-  CLI::App options("Errors, deviations and time of the seam over seeds of simulated scans");
+  arcstart::Program options(
+      "Errors, deviations and time of the seam over seeds of simulated scans");
   std::string json_path;
   int rendered = 25, profiles = 100, backgrounds = 5;
   int first = 1;
   std::string row;
   bool no_speed = false;
-  options.add_option("--json", json_path, "Where the figures go, flat JSON");
-  options.add_option("--seeds", rendered, "Rendered scans a row, twice as many with a tool")
-      ->capture_default_str();
-  options.add_option("--profile-seeds", profiles, "Scans a row and noise that need no images")
-      ->capture_default_str();
-  options.add_option("--background-seeds", backgrounds, "Pairs of scans a row of the background")
-      ->capture_default_str();
-  options.add_option("--first-seed", first, "Of each row; those from 1 on are reported")
-      ->capture_default_str();
-  options.add_option("--row", row, "Only the rows of this name, as in the table before the dot");
-  options.add_flag("--no-speed", no_speed, "Leave the times out");
-  CLI11_PARSE(options, argc, argv);
+  options.option("--json", json_path, "Where the figures go, flat JSON");
+  options.option("--seeds", rendered, "Rendered scans a row, twice as many with a tool")
+      .show_default();
+  options.option("--profile-seeds", profiles, "Scans a row and noise that need no images")
+      .show_default();
+  options.option("--background-seeds", backgrounds, "Pairs of scans a row of the background")
+      .show_default();
+  options.option("--first-seed", first, "Of each row; those from 1 on are reported").show_default();
+  options.option("--row", row, "Only the rows of this name, as in the table before the dot");
+  options.flag("--no-speed", no_speed, "Leave the times out");
+  if (const auto code = options.parse(argc, argv)) return *code;
   spdlog::set_level(spdlog::level::err);  // the tables alone
   nlohmann::json json;
   const arcstart::SeedsOfRow wanted{row, first};

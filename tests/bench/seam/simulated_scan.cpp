@@ -2,7 +2,7 @@
 
 #include <random>
 
-#include "common/calibration_message.hpp"
+#include "common/bus/calibration_message.hpp"
 #include "common/sensor_model.hpp"
 #include "common/time.hpp"
 #include "services/cell_simulator/base/random_stream.hpp"

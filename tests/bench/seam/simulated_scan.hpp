@@ -8,7 +8,7 @@
 #include <optional>
 #include <random>
 
-#include "common/bus.hpp"
+#include "common/bus/bus.hpp"
 #include "common/calibration.hpp"
 #include "services/cell_simulator/image/image_renderer.hpp"
 #include "services/cell_simulator/scene/scene.hpp"

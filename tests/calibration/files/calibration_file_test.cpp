@@ -5,7 +5,7 @@
 #include <fstream>
 #include <random>
 
-#include "common/calibration_message.hpp"
+#include "common/bus/calibration_message.hpp"
 #include "tests/calibration/support/sample_file.hpp"
 
 using namespace arcstart;

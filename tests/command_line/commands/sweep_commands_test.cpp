@@ -12,8 +12,8 @@
 #include <nlohmann/json.hpp>
 #include <sstream>
 
-#include "common/calibration_message.hpp"
-#include "common/event_log.hpp"
+#include "common/bus/calibration_message.hpp"
+#include "common/bus/event_log.hpp"
 #include "services/calibration/files/calibration_file.hpp"
 #include "tests/bench/calibration/simulated_sweeps.hpp"
 

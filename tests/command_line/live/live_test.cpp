@@ -10,7 +10,7 @@
 #include <nlohmann/json.hpp>
 #include <sstream>
 
-#include "common/bus.hpp"
+#include "common/bus/bus.hpp"
 #include "common/service.hpp"
 #include "common/time.hpp"
 #include "tests/command_line/support/synthetic_recording.hpp"

@@ -7,7 +7,7 @@
 #include <nlohmann/json.hpp>
 #include <random>
 
-#include "common/event_log.hpp"
+#include "common/bus/event_log.hpp"
 #include "services/command_line/output/seam_json.hpp"
 #include "services/command_line/recordings/replay.hpp"
 

@@ -6,7 +6,7 @@
 #include <string>
 #include <vector>
 
-#include "common/calibration_message.hpp"
+#include "common/bus/calibration_message.hpp"
 #include "tests/command_line/support/synthetic_recording.hpp"
 
 namespace arcstart::test {

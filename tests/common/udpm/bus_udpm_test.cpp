@@ -5,7 +5,7 @@
 
 #include <catch2/catch.hpp>
 
-#include "common/bus.hpp"
+#include "common/bus/bus.hpp"
 #include "common/time.hpp"
 
 using namespace arcstart;

@@ -3,7 +3,7 @@
 #include <Eigen/Cholesky>
 #include <catch2/catch.hpp>
 
-#include "common/message_checks.hpp"
+#include "common/bus/message_checks.hpp"
 #include "tests/seam_finding/support/synthetic_messages.hpp"
 #include "tests/seam_finding/support/synthetic_scan.hpp"
 

@@ -18,9 +18,9 @@
 #include <thread>
 #include <vector>
 
+#include "common/bus/message_checks.hpp"
 #include "common/configuration.hpp"
 #include "common/input_error.hpp"
-#include "common/message_checks.hpp"
 
 namespace arcstart {
 

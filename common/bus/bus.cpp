@@ -1,4 +1,4 @@
-#include "common/bus.hpp"
+#include "common/bus/bus.hpp"
 
 #include <fmt/format.h>
 #include <sys/socket.h>

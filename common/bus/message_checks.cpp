@@ -1,4 +1,4 @@
-#include "common/message_checks.hpp"
+#include "common/bus/message_checks.hpp"
 
 #include <fmt/format.h>
 

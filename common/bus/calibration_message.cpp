@@ -1,4 +1,4 @@
-#include "common/calibration_message.hpp"
+#include "common/bus/calibration_message.hpp"
 
 #include <algorithm>
 #include <cmath>

@@ -1,4 +1,4 @@
-#include "common/event_log.hpp"
+#include "common/bus/event_log.hpp"
 
 #include <fcntl.h>
 #include <fmt/format.h>
