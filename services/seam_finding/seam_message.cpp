@@ -26,6 +26,19 @@ std::int8_t visibility_of(EndVisibility visibility) {
   return seam_t::NOT_DETERMINED;
 }
 
+// A result says in words alone why it is none: single codes need one of its own.
+std::int16_t refusal_of(const SeamResult& result) {
+  switch (result.verdict) {
+    case SeamResult::Verdict::kFound:
+      return 0;
+    case SeamResult::Verdict::kAmbiguous:
+      return seam_t::SEVERAL_SEAMS;
+    case SeamResult::Verdict::kRefused:
+      break;
+  }
+  return seam_t::NO_SEAM;
+}
+
 template <std::size_t N>
 void fill(double (&matrix)[N][N], double value) {
   for (auto& row : matrix) std::fill(std::begin(row), std::end(row), value);
@@ -40,6 +53,9 @@ seam_t empty_seam() {
     fill(*covariance, -1);
   seam.direction_deviation = seam.angle_deviation = seam.gap = seam.gap_deviation =
       seam.polyline_deviation = -1;
+  seam.thickness = seam.mismatch = seam.groove_angle = -1;
+  seam.stripes_checked = -1;
+  seam.explained_share = seam.worst_contradiction = -1;
   std::fill(std::begin(seam.normal_deviations), std::end(seam.normal_deviations), -1);
   seam.torch_quaternion[0] = 1;
   return seam;
@@ -57,6 +73,7 @@ void fill_in(seam_t& seam, const SeamResult& result) {
     seam.alternatives.push_back(alternative);
   }
   seam.alternative_count = static_cast<int>(seam.alternatives.size());
+  seam.refusal = refusal_of(result);
   seam.reason = result.reason;
   if (result.verdict == SeamResult::Verdict::kRefused) seam.verdict = seam_t::REFUSED;
   if (result.verdict == SeamResult::Verdict::kAmbiguous) seam.verdict = seam_t::AMBIGUOUS;
@@ -73,6 +90,7 @@ void fill_in(seam_t& seam, const SeamResult& result) {
   seam.angle = result.angle;
   seam.gap = result.gap;
   seam.gap_deviation = result.gap_deviation;
+  // Thickness, mismatch and groove angle stay as in empty_seam() until a result has them.
   seam.start_visibility = visibility_of(result.start_visibility);
   seam.end_visibility = visibility_of(result.end_visibility);
   for (const Eigen::Vector3d& point : result.course.points)
