@@ -96,6 +96,7 @@ void run_loop(ServiceContext& context, const ServiceDescription& description, Ap
   while (!end_asked) {
     context.bus.handle(std::chrono::milliseconds(20));
     app.tick(utime_now());
+    while (const auto warning = context.bus.next_warning()) spdlog::warn("{}", *warning);
     notify_systemd("WATCHDOG=1");
     const Health health = app.health();
     if (const std::int64_t now_lost = health.lost + context.bus.overflowed(); now_lost != lost) {

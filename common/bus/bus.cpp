@@ -203,10 +203,21 @@ void Bus::publish_bytes(const std::string& channel, const Bytes& bytes) {
   last_error_ = channel + ": the network took no message: is there still a route for multicast?";
 }
 
-void Bus::note_undecodable(const std::string& channel, const std::string& why) {
+void Bus::note_undecodable(const std::string& channel, const Bytes& bytes, const std::string& why) {
   ++undecodable_;
   const std::lock_guard lock(mutex_);
   last_error_ = channel + ": a message was dropped: " + why;
+  // Whoever sends one sends thousands: one line says it all.
+  if (!former_type(bytes).empty() && former_channels_.insert(channel).second)
+    warnings_.push_back(channel + ": all such messages are dropped: " + why);
+}
+
+std::optional<std::string> Bus::next_warning() {
+  const std::lock_guard lock(mutex_);
+  if (warnings_.empty()) return std::nullopt;
+  std::string warning = std::move(warnings_.front());
+  warnings_.pop_front();
+  return warning;
 }
 
 std::string Bus::last_error() const {

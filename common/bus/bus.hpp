@@ -14,10 +14,13 @@
 #include <lcm/lcm-cpp.hpp>
 #include <memory>
 #include <mutex>
+#include <optional>
+#include <set>
 #include <string>
 #include <thread>
 #include <vector>
 
+#include "common/bus/former_types.hpp"
 #include "common/bus/message_checks.hpp"
 #include "common/configuration.hpp"
 #include "common/input_error.hpp"
@@ -83,10 +86,10 @@ class Bus {
           const int size = static_cast<int>(bytes.size());
           std::string error;
           if (message.decode(bytes.data(), 0, size) != size)
-            error = "not a " + std::string(Message::getTypeName()) + " of this version, or damaged";
+            error = undecodable_reason(bytes, Message::getTypeName());
           else
             error = meaning_error(message);
-          if (!error.empty()) return note_undecodable(channel, error);
+          if (!error.empty()) return note_undecodable(channel, bytes, error);
           ++received_;
           handler(message);
         });
@@ -119,6 +122,8 @@ class Bus {
   std::int64_t undecodable() const { return undecodable_; }
   std::int64_t overflowed() const { return overflowed_; }  // fell over a full queue
   std::string last_error() const;                          // of what was not taken in or not sent
+  // For the log, each once: a channel on which messages of the version before come.
+  std::optional<std::string> next_warning();
   std::string buffer_warning() const {
     return buffer_warning_;
   }  // empty where the kernel gave the buffer asked for
@@ -133,7 +138,7 @@ class Bus {
   Transport& transport_of(const std::string& channel);
   void take_in(Subscription& subscription, const lcm::ReceiveBuffer& buffer,
                const std::string& channel);
-  void note_undecodable(const std::string& channel, const std::string& why);
+  void note_undecodable(const std::string& channel, const Bytes& bytes, const std::string& why);
   bool dispatch_one();
 
   struct Waiting {
@@ -150,6 +155,8 @@ class Bus {
   std::deque<Waiting> waiting_;
   bool woken_ = false;
   std::string last_error_;
+  std::set<std::string> former_channels_;  // that were warned of
+  std::deque<std::string> warnings_;
 
   std::atomic<std::int64_t> received_{0}, sent_{0}, undecodable_{0}, overflowed_{0};
 };

@@ -29,6 +29,11 @@ calibration_t to_message(const Calibration& calibration) {
   message.camera_residual = calibration.camera_residual;
   message.laser_plane_residual = calibration.laser_plane_residual;
   message.hand_eye_residual = calibration.hand_eye_residual;
+  // The calibration's file does not keep yet how it was judged.
+  message.passed = calibration_t::NOT_JUDGED;
+  message.camera_limit = message.laser_plane_limit = message.leave_one_out_limit =
+      message.predicted_limit = message.robot_position_limit = message.robot_orientation_limit = -1;
+  message.poses = -1;
   constexpr int n = Calibration::kParameters;
   static_assert(n == calibration_t::PARAMETERS);
   message.covariance_size = calibration.covariance.empty() ? 0 : n;

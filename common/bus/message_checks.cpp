@@ -3,11 +3,15 @@
 #include <fmt/format.h>
 
 #include <cmath>
+#include <string_view>
+
+#include "common/bus/crc32c.hpp"
 
 namespace arcstart {
 namespace {
 
-constexpr double kLongest = 1e7;  // mm: ten kilometres; nothing in a cell is farther away
+constexpr double kLongest = 1e7;           // mm: ten kilometres; nothing in a cell is farther away
+constexpr std::size_t kLongestName = 256;  // bytes, of a job's or a part's; seam_t repeats them
 
 template <class List>
 bool all_finite(const List& values) {
@@ -32,6 +36,51 @@ bool is_unit(const double* values, int count) {
   double sum = 0;
   for (int i = 0; i < count; ++i) sum += values[i] * values[i];
   return std::abs(sum - 1) < 1e-6;
+}
+
+// Length of the character of UTF-8 (RFC 3629, section 4) that the text begins with, in bytes; 0
+// where it begins with none, or with a control character.
+std::size_t character_length(std::string_view text) {
+  const auto byte = [&](std::size_t i) { return static_cast<unsigned char>(text[i]); };
+  const unsigned char first = byte(0);
+  if (first < 0x80) return first < 0x20 || first == 0x7F ? 0 : 1;
+  const std::size_t length = first >= 0xC2 && first <= 0xDF   ? 2
+                             : first >= 0xE0 && first <= 0xEF ? 3
+                             : first >= 0xF0 && first <= 0xF4 ? 4
+                                                              : 0;
+  if (length == 0 || length > text.size()) return 0;
+  for (std::size_t i = 1; i < length; ++i)
+    if ((byte(i) & 0xC0) != 0x80) return 0;
+  // Longer than it need be, half of a UTF-16 pair, or beyond Unicode's last.
+  const unsigned char second = byte(1);
+  const bool bad = (first == 0xE0 && second < 0xA0) || (first == 0xED && second > 0x9F) ||
+                   (first == 0xF0 && second < 0x90) || (first == 0xF4 && second > 0x8F);
+  return bad ? 0 : length;
+}
+
+// A short line of UTF-8: it goes into JSON as it stands.
+bool is_name(std::string_view text) {
+  if (text.size() > kLongestName) return false;
+  while (!text.empty()) {
+    const std::size_t length = character_length(text);
+    if (length == 0) return false;
+    text.remove_prefix(length);
+  }
+  return true;
+}
+
+constexpr const char* kNoName = "job or part is no line of UTF-8 of at most 256 bytes";
+
+// -1 stands for not known.
+bool is_known_or_not(double value) { return value == -1 || (value >= 0 && is_length(value)); }
+
+// Of the less probable of two.
+bool is_weight(double value) { return value >= 0 && value <= 0.5; }
+
+// Bytes that an image of this encoding must have, -1 where that is not fixed.
+std::int64_t bytes_of(const image_t& m) {
+  if (m.encoding == image_t::PNG) return -1;
+  return std::int64_t{m.width} * m.height * (m.encoding == image_t::MONO16 ? 2 : 1);
 }
 
 // Collects the first condition that fails.
@@ -68,13 +117,17 @@ std::string meaning_error(const image_t& m) {
                "region outside the sensor")
       .require(std::isfinite(m.exposure_us) && std::isfinite(m.gain_db),
                "exposure or gain not finite")
-      .require(m.encoding == image_t::MONO8 || m.encoding == image_t::PNG, "unknown encoding");
+      .require(m.encoding >= image_t::MONO8 && m.encoding <= image_t::BAYER_BG8,
+               "unknown encoding");
   if (m.incomplete.empty())
     checks.require(m.width > 0 && m.height > 0 && m.size > 0, "no bytes, and no reason why")
-        .require(m.encoding != image_t::MONO8 || m.size == m.width * m.height,
-                 "bytes are not width x height");
+        .require(bytes_of(m) < 0 || m.size == bytes_of(m), "bytes are not width x height");
   else
     checks.require(m.size == 0, "bytes of an incomplete image");
+  // Last, and only where the rest is in order: it reads every byte.
+  if (checks.error().empty())
+    checks.require(m.crc32c == (m.size > 0 ? std::int64_t{crc32c(m.data)} : 0),
+                   "bytes do not have their CRC-32C: damaged on the way or on the disk");
   return checks.error();
 }
 
@@ -86,6 +139,9 @@ std::string meaning_error(const robot_pose_t& m) {
       .require(are_lengths(m.position), "position not finite")
       .require(all_finite(m.joints), "joints not finite")
       .require(std::isfinite(m.device_tick_us), "tick not finite")
+      .require(m.source >= robot_pose_t::UNKNOWN && m.source <= robot_pose_t::RTDE,
+               "unknown source")
+      .require(m.tool_frame >= -1 && m.user_frame >= -1, "frame number below -1")
       .require(!m.invalid.empty() || is_unit(m.quaternion, 4), "quaternion not of unit length");
   return checks.error();
 }
@@ -93,7 +149,9 @@ std::string meaning_error(const robot_pose_t& m) {
 std::string meaning_error(const stripe_t& m) {
   Checks checks = check_source(m);
   checks.require(m.sensor_width >= 0 && m.sensor_height >= 0, "sensor size below 0")
-      .require(m.count > 0 || !m.empty.empty(), "no centres, and no reason why")
+      .require(m.why >= stripe_t::NONE && m.why <= stripe_t::UNKNOWN_ENCODING, "unknown reason")
+      .require(m.count > 0 || m.why != stripe_t::NONE, "no centres, and no reason why")
+      .require(m.count == 0 || m.why == stripe_t::NONE, "centres, and a reason why there are none")
       .require(are_lengths(m.u) && are_lengths(m.v), "centres not finite")
       .require(all_finite(m.strength) && all_finite(m.width) && all_finite(m.deviation),
                "quality not finite")
@@ -108,7 +166,9 @@ std::string meaning_error(const stripe_t& m) {
 
 std::string meaning_error(const profile_t& m) {
   Checks checks = check_source(m);
-  checks.require(m.count > 0 || !m.empty.empty(), "no points, and no reason why")
+  checks.require(m.why >= profile_t::NONE && m.why <= profile_t::WRONG_TIME, "unknown reason")
+      .require(m.count > 0 || m.why != profile_t::NONE, "no points, and no reason why")
+      .require(m.count == 0 || m.why == profile_t::NONE, "points, and a reason why there are none")
       .require(are_lengths(m.x) && are_lengths(m.y) && are_lengths(m.z), "points not finite")
       .require(are_lengths(m.u) && are_lengths(m.v) && all_finite(m.deviation),
                "centres not finite")
@@ -117,8 +177,8 @@ std::string meaning_error(const profile_t& m) {
       .require(m.count == 0 || is_unit(m.tool_quaternion, 4), "tool quaternion not of unit length")
       .require(all_finite(m.tool_quaternion), "tool quaternion not finite");
   for (int i = 0; i < m.count; ++i)
-    checks.require(m.segment[i] >= 0 && (m.segment_end[i] == profile_t::INSIDE ||
-                                         m.segment_end[i] == profile_t::SEGMENT_END),
+    checks.require(m.segment[i] >= 0 && m.segment_end[i] >= profile_t::CONTINUES &&
+                       m.segment_end[i] <= profile_t::SATURATION,
                    "unknown segment or segment end");
   return checks.error();
 }
@@ -129,6 +189,17 @@ std::string meaning_error(const scan_t& m) {
       .require(m.state >= scan_t::IDLE && m.state <= scan_t::ENDED, "unknown state")
       .require(m.kind == scan_t::BACKGROUND || m.kind == scan_t::WORKPIECE, "unknown kind")
       .require(m.scan_id >= 0 && m.images >= 0 && m.lost >= 0, "scan_id, images or lost below 0")
+      .require(m.end_cause >= scan_t::NONE && m.end_cause <= scan_t::CAMERA_LOST &&
+                   m.previous_end_cause >= scan_t::NONE &&
+                   m.previous_end_cause <= scan_t::CAMERA_LOST,
+               "unknown end cause")
+      .require((m.state == scan_t::ENDED) == (m.end_cause != scan_t::NONE),
+               "ended without a cause, or a cause without an end")
+      .require(m.previous_scan_id == 0 || m.previous_end_cause != scan_t::NONE,
+               "the scan before ended without a cause")
+      .require(is_name(m.job) && is_name(m.part), kNoName)
+      .require(std::isfinite(m.clock_difference) && is_known_or_not(m.clock_bound),
+               "clock difference or its bound")
       .require(m.state != scan_t::ENDED || m.end_utime >= m.begin_utime, "ends before it begins");
   return checks.error();
 }
@@ -141,7 +212,8 @@ std::string meaning_error(const scan_command_t& m) {
       .require(m.kind == scan_t::BACKGROUND || m.kind == scan_t::WORKPIECE, "unknown kind")
       .require(m.action != scan_command_t::START ||
                    (m.longest_duration > 0 && m.longest_duration <= 3600),
-               "longest duration must be above 0 and at most 3600 s");
+               "longest duration must be above 0 and at most 3600 s")
+      .require(is_name(m.job) && is_name(m.part), kNoName);
   return checks.error();
 }
 
@@ -153,7 +225,11 @@ std::string meaning_error(const camera_command_t& m) {
       .require(m.laser >= camera_command_t::LASER_OFF &&
                    m.laser <= camera_command_t::LASER_AS_CONFIGURED,
                "unknown laser setting")
-      .require(m.images >= 0 && m.images <= 10000, "number of images must lie between 0 and 10000");
+      .require(m.images >= 0 && m.images <= 10000, "number of images must lie between 0 and 10000")
+      .require(m.offset_u >= 0 && m.offset_v >= 0 && m.width >= 0 && m.height >= 0 &&
+                   (m.width > 0) == (m.height > 0),
+               "region")
+      .require(std::isfinite(m.frame_rate) && m.frame_rate >= 0, "frame rate");
   return checks.error();
 }
 
@@ -168,6 +244,13 @@ std::string meaning_error(const calibration_t& m) {
                "hand-eye has no unit quaternion")
       .require(std::isfinite(m.time_offset) && std::abs(m.time_offset) < 10,
                "time offset beyond 10 s")
+      .require(m.passed >= calibration_t::NOT_JUDGED && m.passed <= calibration_t::FAILED,
+               "unknown judgement")
+      .require(is_known_or_not(m.camera_limit) && is_known_or_not(m.laser_plane_limit) &&
+                   is_known_or_not(m.leave_one_out_limit) && is_known_or_not(m.predicted_limit) &&
+                   is_known_or_not(m.robot_position_limit) &&
+                   is_known_or_not(m.robot_orientation_limit) && m.poses >= -1,
+               "limits or number of poses")
       .require(m.covariance_size == 0 || m.covariance_size == calibration_t::PARAMETERS,
                "covariance of wrong size");
   for (const auto& row : m.pixel_to_camera) checks.require(all_finite(row), "M not finite");
@@ -204,6 +287,22 @@ std::string meaning_error(const seam_t& m) {
       .require(
           m.verdict == seam_t::FOUND || m.verdict == seam_t::BACKGROUND_STORED || !m.reason.empty(),
           "no seam, and no reason why")
+      .require((m.verdict == seam_t::REFUSED || m.verdict == seam_t::AMBIGUOUS)
+                   ? m.refusal > seam_t::SCAN_AGAIN && m.refusal < seam_t::STOP + 100
+                   : m.refusal == 0,
+               "no seam without a refusal's code, or a code beside a seam")
+      .require(m.usable >= seam_t::USABLE && m.usable <= seam_t::CLOCKS_APART,
+               "unknown reason against its use")
+      .require(is_name(m.job) && is_name(m.part), kNoName)
+      .require(are_lengths(m.start_second) && are_lengths(m.end_second) &&
+                   is_weight(m.start_second_weight) && is_weight(m.end_second_weight),
+               "second place of an end")
+      .require(is_known_or_not(m.thickness) && is_known_or_not(m.mismatch) &&
+                   is_known_or_not(m.groove_angle),
+               "thickness, mismatch or groove angle")
+      .require(m.stripes_checked >= -1 && is_known_or_not(m.explained_share) &&
+                   m.explained_share <= 1 && is_known_or_not(m.worst_contradiction),
+               "what was checked against the stripes")
       .require(are_lengths(m.start) && are_lengths(m.end) && all_finite(m.direction),
                "seam not finite")
       .require(m.verdict != seam_t::FOUND || is_unit(m.direction, 3),

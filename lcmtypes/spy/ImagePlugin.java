@@ -74,7 +74,7 @@ public class ImagePlugin implements SpyPlugin {
         return null;
       }
     }
-    if (message.size != message.width * message.height) return null;
+    if (message.encoding != image_t.MONO8 || message.size != message.width * message.height) return null;
     BufferedImage picture = new BufferedImage(message.width, message.height, BufferedImage.TYPE_BYTE_GRAY);
     picture.getRaster().setDataElements(0, 0, message.width, message.height, message.data);
     return picture;

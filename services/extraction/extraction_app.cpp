@@ -12,6 +12,13 @@ static_assert(static_cast<int>(SegmentEnd::kEdge) == stripe_t::EDGE);
 static_assert(static_cast<int>(SegmentEnd::kGap) == stripe_t::GAP);
 static_assert(static_cast<int>(SegmentEnd::kBorder) == stripe_t::BORDER);
 static_assert(static_cast<int>(SegmentEnd::kSaturation) == stripe_t::SATURATION);
+static_assert(static_cast<int>(EmptyStripe::kNone) == stripe_t::NONE);
+static_assert(static_cast<int>(EmptyStripe::kNoStripe) == stripe_t::NO_STRIPE);
+static_assert(static_cast<int>(EmptyStripe::kTooMuchLight) == stripe_t::TOO_MUCH_LIGHT);
+static_assert(static_cast<int>(EmptyStripe::kIncompleteImage) == stripe_t::INCOMPLETE_IMAGE);
+static_assert(static_cast<int>(EmptyStripe::kLaserOff) == stripe_t::LASER_OFF);
+static_assert(static_cast<int>(EmptyStripe::kUnreadableImage) == stripe_t::UNREADABLE_IMAGE);
+static_assert(static_cast<int>(EmptyStripe::kUnknownEncoding) == stripe_t::UNKNOWN_ENCODING);
 
 namespace {
 
@@ -52,29 +59,35 @@ void ExtractionApp::count_lost(const image_t& image) {
   spdlog::warn(health_.last_error);
 }
 
-std::string ExtractionApp::grey_values(const image_t& image, GreyImage& grey) {
-  if (!image.incomplete.empty()) return "image incomplete: " + image.incomplete;
-  if (image.width <= 0 || image.height <= 0) return "image has no size";
+EmptyStripe ExtractionApp::grey_values(const image_t& image, GreyImage& grey, std::string& detail) {
+  if (!image.incomplete.empty()) {
+    detail = image.incomplete;
+    return EmptyStripe::kIncompleteImage;
+  }
   const std::uint8_t* data = image.data.data();
-  std::string error;
-  if (image.encoding == image_t::PNG) {
-    error = decode_grey_png(data, image.data.size(), image.width, image.height, decoded_);
+  EmptyStripe why = EmptyStripe::kNone;
+  if (image.width <= 0 || image.height <= 0) {
+    detail = "image has no size";
+  } else if (image.encoding == image_t::PNG) {
+    detail = decode_grey_png(data, image.data.size(), image.width, image.height, decoded_);
     data = decoded_.data;
   } else if (image.encoding != image_t::MONO8) {
-    error = "unknown encoding";
+    why = EmptyStripe::kUnknownEncoding;
+    detail = std::to_string(image.encoding);
   } else if (image.data.size() != static_cast<std::size_t>(image.width) * image.height) {
-    error =
+    detail =
         fmt::format("{} bytes for {} x {} pixels", image.data.size(), image.width, image.height);
   }
-  if (!error.empty()) {
-    health_.last_error = fmt::format("image seq {}: {}", image.seq, error);
-    spdlog::warn(health_.last_error);
-    return error;
+  if (!detail.empty()) {
+    if (why == EmptyStripe::kNone) why = EmptyStripe::kUnreadableImage;
+    health_.last_error = fmt::format("image seq {}: {}", image.seq, to_words(why, detail));
+    spdlog::warn("{}", health_.last_error);
+    return why;
   }
   grey = {
       data, image.width, image.height,
       image.encoding == image_t::PNG ? static_cast<std::ptrdiff_t>(decoded_.step) : image.width};
-  return "";
+  return EmptyStripe::kNone;
 }
 
 void ExtractionApp::keep_laser_off(const image_t& image, const GreyImage& grey) {
@@ -114,11 +127,15 @@ stripe_t ExtractionApp::stripe_of(const image_t& image) {
   message.sensor_height = image.sensor_height;
 
   GreyImage grey;
-  message.empty = grey_values(image, grey);
-  if (!message.empty.empty()) return message;
-  if (!image.laser_on) {
+  std::string detail;
+  EmptyStripe why = grey_values(image, grey, detail);
+  if (why == EmptyStripe::kNone && !image.laser_on) {
     keep_laser_off(image, grey);
-    message.empty = "laser off";
+    why = EmptyStripe::kLaserOff;
+  }
+  if (why != EmptyStripe::kNone) {
+    message.why = static_cast<std::int8_t>(why);
+    message.empty = to_words(why, detail);
     return message;
   }
   extractor_.extract(without_ambient_light(image, grey), stripe_);
@@ -126,6 +143,7 @@ stripe_t ExtractionApp::stripe_of(const image_t& image) {
   message.sigma = stripe.sigma;
   message.noise = stripe.noise;
   message.saturated_share = stripe.saturated_share;
+  message.why = static_cast<std::int8_t>(stripe.why);
   message.empty = stripe.empty;
   message.count = static_cast<std::int32_t>(stripe.centres.size());
   for (const StripeCentre& centre : stripe.centres) {

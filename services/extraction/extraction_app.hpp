@@ -24,8 +24,8 @@ class ExtractionApp : public App {
   void take(const image_t& image);
   void count_lost(const image_t& image);
   stripe_t stripe_of(const image_t& image);
-  // Why there are none, empty where there are.
-  std::string grey_values(const image_t& image, GreyImage& grey);
+  // Why there are none, kNone where there are; detail as to_words() wants it.
+  EmptyStripe grey_values(const image_t& image, GreyImage& grey, std::string& detail);
   void keep_laser_off(const image_t& image, const GreyImage& grey);
   GreyImage without_ambient_light(const image_t& image, const GreyImage& grey);
 

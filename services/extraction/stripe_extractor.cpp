@@ -241,10 +241,11 @@ void StripeExtractor::extract(const GreyImage& image, Stripe& stripe) {
   measure(image);
   describe(image, stripe);
   if (settings_.smooth_course) end_at_light(image, stripe.centres);
-  stripe.empty = !stripe.centres.empty() ? ""
-                 : crowded_ ? "more than " + std::to_string(kMostPoints * lines_of(image)) +
-                                  " ridge points, too many to tell a stripe from"
-                            : "no stripe found";
+  stripe.why = !stripe.centres.empty() ? EmptyStripe::kNone
+               : crowded_              ? EmptyStripe::kTooMuchLight
+                                       : EmptyStripe::kNoStripe;
+  stripe.empty =
+      to_words(stripe.why, crowded_ ? std::to_string(kMostPoints * lines_of(image)) : "");
   if (follows && sigma_ > 0) follow_scale();
 }
 

@@ -9,6 +9,7 @@
 #include "services/extraction/centres/centre_noise.hpp"
 #include "services/extraction/centres/stripe_centre.hpp"
 #include "services/extraction/centres/stripe_smoother.hpp"
+#include "services/extraction/empty_stripe.hpp"
 #include "services/extraction/extraction_settings.hpp"
 #include "services/extraction/image/grey_image.hpp"
 #include "services/extraction/lines/linking.hpp"
@@ -18,11 +19,12 @@
 namespace arcstart::extraction {
 
 struct Stripe {
-  std::vector<StripeCentre> centres;  // segment by segment, in order along each
-  float sigma = 0;                    // of the kernels used; px
-  float noise = 0;                    // standard deviation where nothing is lit; grey values
-  float saturated_share = 0;          // of the chosen centres, on pixels at 255
-  std::string empty;                  // why there are no centres
+  std::vector<StripeCentre> centres;     // segment by segment, in order along each
+  float sigma = 0;                       // of the kernels used; px
+  float noise = 0;                       // standard deviation where nothing is lit; grey values
+  float saturated_share = 0;             // of the chosen centres, on pixels at 255
+  EmptyStripe why = EmptyStripe::kNone;  // there are no centres
+  std::string empty;                     // the same in words
 };
 
 class StripeExtractor {

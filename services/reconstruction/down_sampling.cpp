@@ -5,6 +5,8 @@
 namespace arcstart::reconstruction {
 namespace {
 
+constexpr std::int8_t kGap = 2;  // profile_t.GAP: also where extraction did not say why it ends
+
 // Appends those between two kept ones that the stripe bends at, in their order.
 void keep_bends(const std::vector<ReceivedCentre>& centres, std::size_t first, std::size_t last,
                 double bend_px, std::vector<ReceivedCentre>& kept) {
@@ -20,6 +22,7 @@ void keep_bends(const std::vector<ReceivedCentre>& centres, std::size_t first, s
   if (farthest == first) return;
   keep_bends(centres, first, farthest, bend_px, kept);
   kept.push_back(centres[farthest]);
+  kept.back().segment_end = 0;
   keep_bends(centres, farthest, last, bend_px, kept);
 }
 
@@ -39,7 +42,8 @@ std::vector<ReceivedCentre> down_sample(const std::vector<ReceivedCentre>& centr
     if (bend_px > 0 && !first) keep_bends(centres, before, i, bend_px, kept);
     before = i;
     kept.push_back(centres[i]);
-    kept.back().segment_end = first || last;
+    std::int8_t& end = kept.back().segment_end;
+    end = !first && !last ? 0 : end != 0 ? end : kGap;
   }
   return kept;
 }

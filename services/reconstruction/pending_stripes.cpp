@@ -7,6 +7,14 @@
 #include "common/time.hpp"
 
 namespace arcstart::reconstruction {
+namespace {
+
+void leave_empty(DecidedStripe& stripe, EmptyProfile why, const std::string& detail = "") {
+  stripe.why = why;
+  stripe.empty = to_words(why, detail);
+}
+
+}  // namespace
 
 void PendingStripes::add(ReceivedStripe stripe, const TrajectoryQueue& trajectory,
                          ScanCalibration& calibrations) {
@@ -17,18 +25,19 @@ void PendingStripes::add(ReceivedStripe stripe, const TrajectoryQueue& trajector
     const std::int64_t utime = earlier.stripe.source.utime;
     if (!decided(earlier) && newest && utime - *newest > TrajectoryQueue::kJump &&
         utime - stripe.source.utime > TrajectoryQueue::kJump)
-      earlier.empty = "its time lies far ahead of the positions and of the stripe after it";
+      leave_empty(earlier, EmptyProfile::kWrongTime);
   }
-  stripes_.push_back({std::move(stripe), nullptr, std::nullopt, ""});
+  stripes_.push_back({std::move(stripe), nullptr, std::nullopt, EmptyProfile::kNone, ""});
   DecidedStripe& added = stripes_.back();
-  if (!added.stripe.empty.empty()) {
-    added.empty = "stripe empty: " + added.stripe.empty;
+  if (added.stripe.why != EmptyProfile::kNone) {
+    leave_empty(added, added.stripe.why, added.stripe.empty);
     calibrations.of(added.stripe.source.scan_id);  // it may be its scan's first all the same
   } else {
     find_calibration(added, trajectory, calibrations);
   }
   if (stripes_.size() > most_ && !decided(stripes_.front()))
-    stripes_.front().empty = fmt::format("no later position while {} stripes waited", most_);
+    leave_empty(stripes_.front(), EmptyProfile::kNoPosition,
+                fmt::format("no later position while {} stripes waited", most_));
 }
 
 void PendingStripes::decide(const TrajectoryQueue& trajectory, ScanCalibration& calibrations) {
@@ -38,7 +47,8 @@ void PendingStripes::decide(const TrajectoryQueue& trajectory, ScanCalibration& 
     const auto lookup =
         trajectory.at(stripe.stripe.source.utime + seconds_to_us(stripe.calibration->time_offset));
     if (lookup.state == TrajectoryQueue::State::found) stripe.T_base_tool = lookup.T_base_tool;
-    if (lookup.state == TrajectoryQueue::State::none) stripe.empty = lookup.reason;
+    if (lookup.state == TrajectoryQueue::State::none)
+      leave_empty(stripe, EmptyProfile::kNoPosition, lookup.reason);
   }
 }
 
@@ -47,24 +57,19 @@ void PendingStripes::find_calibration(DecidedStripe& stripe, const TrajectoryQue
                                       ScanCalibration& calibrations) const {
   const StripeSource& source = stripe.stripe.source;
   const ScanCalibration::Answer answer = calibrations.of(source.scan_id);
-  if (!answer.none.empty()) {
-    stripe.empty = answer.none;
-    return;
-  }
+  if (answer.none != EmptyProfile::kNone) return leave_empty(stripe, answer.none);
   if (!answer.calibration) {
     const auto newest = trajectory.newest();
     if (!newest || *newest - source.utime <= calibration_wait_) return;
     calibrations.give_up(source.scan_id);
-    stripe.empty = "no calibration";
-    return;
+    return leave_empty(stripe, EmptyProfile::kNoCalibration);
   }
   const SensorModel& model = answer.calibration->sensor_model;
-  if (stripe.stripe.sensor_width != model.width || stripe.stripe.sensor_height != model.height) {
-    stripe.empty =
+  if (stripe.stripe.sensor_width != model.width || stripe.stripe.sensor_height != model.height)
+    return leave_empty(
+        stripe, EmptyProfile::kOtherSensor,
         fmt::format("image of {} x {} px, calibration of {} x {} px", stripe.stripe.sensor_width,
-                    stripe.stripe.sensor_height, model.width, model.height);
-    return;
-  }
+                    stripe.stripe.sensor_height, model.width, model.height));
   stripe.calibration = answer.calibration;
 }
 

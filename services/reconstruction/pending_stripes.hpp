@@ -17,7 +17,8 @@ struct DecidedStripe {
   ReceivedStripe stripe;
   std::shared_ptr<const Calibration> calibration;
   std::optional<RigidTransform> T_base_tool;
-  std::string empty;
+  EmptyProfile why = EmptyProfile::kNone;
+  std::string empty;  // the same in words
 };
 
 // Every decision follows from the order of messages within each channel, not from how the channels
@@ -42,7 +43,7 @@ class PendingStripes {
 
  private:
   static bool decided(const DecidedStripe& stripe) {
-    return stripe.T_base_tool.has_value() || !stripe.empty.empty();
+    return stripe.T_base_tool.has_value() || stripe.why != EmptyProfile::kNone;
   }
   void find_calibration(DecidedStripe& stripe, const TrajectoryQueue& trajectory,
                         ScanCalibration& calibrations) const;

@@ -40,6 +40,7 @@ std::optional<Profile> Reconstruction::next() {
 Profile Reconstruction::make_profile(const DecidedStripe& decided) const {
   Profile profile;
   profile.source = decided.stripe.source;
+  profile.why = decided.why;
   profile.empty = decided.empty;
   if (decided.calibration) profile.calibration_id = decided.calibration->id;
   if (!decided.T_base_tool) return profile;
@@ -47,7 +48,10 @@ Profile Reconstruction::make_profile(const DecidedStripe& decided) const {
   profile.camera_centre = *decided.T_base_tool * decided.calibration->T_tool_camera.translation();
   profile.points = carry_to_base(decided.stripe.centres, *decided.calibration, *decided.T_base_tool,
                                  {settings_.nearest_mm, settings_.farthest_mm});
-  if (profile.points.empty()) profile.empty = "no point within the working range";
+  if (profile.points.empty()) {
+    profile.why = EmptyProfile::kOutOfRange;
+    profile.empty = to_words(profile.why);
+  }
   return profile;
 }
 

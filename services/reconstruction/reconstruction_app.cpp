@@ -13,20 +13,47 @@
 namespace arcstart::reconstruction {
 namespace {
 
+// The three lists of reasons are one.
+constexpr bool is(EmptyProfile why, int of_profile) { return static_cast<int>(why) == of_profile; }
+static_assert(is(EmptyProfile::kNone, profile_t::NONE) && profile_t::NONE == stripe_t::NONE);
+static_assert(is(EmptyProfile::kNoStripe, profile_t::NO_STRIPE) &&
+              profile_t::NO_STRIPE == stripe_t::NO_STRIPE);
+static_assert(is(EmptyProfile::kTooMuchLight, profile_t::TOO_MUCH_LIGHT) &&
+              profile_t::TOO_MUCH_LIGHT == stripe_t::TOO_MUCH_LIGHT);
+static_assert(is(EmptyProfile::kIncompleteImage, profile_t::INCOMPLETE_IMAGE) &&
+              profile_t::INCOMPLETE_IMAGE == stripe_t::INCOMPLETE_IMAGE);
+static_assert(is(EmptyProfile::kLaserOff, profile_t::LASER_OFF) &&
+              profile_t::LASER_OFF == stripe_t::LASER_OFF);
+static_assert(is(EmptyProfile::kUnreadableImage, profile_t::UNREADABLE_IMAGE) &&
+              profile_t::UNREADABLE_IMAGE == stripe_t::UNREADABLE_IMAGE);
+static_assert(is(EmptyProfile::kUnknownEncoding, profile_t::UNKNOWN_ENCODING) &&
+              profile_t::UNKNOWN_ENCODING == stripe_t::UNKNOWN_ENCODING);
+static_assert(is(EmptyProfile::kNoneChosen, profile_t::NONE_CHOSEN));
+static_assert(is(EmptyProfile::kNoPosition, profile_t::NO_POSITION));
+static_assert(is(EmptyProfile::kNoCalibration, profile_t::NO_CALIBRATION));
+static_assert(is(EmptyProfile::kCalibrationChanged, profile_t::CALIBRATION_CHANGED));
+static_assert(is(EmptyProfile::kOtherSensor, profile_t::OTHER_SENSOR));
+static_assert(is(EmptyProfile::kOutOfRange, profile_t::OUT_OF_RANGE));
+static_assert(is(EmptyProfile::kWrongTime, profile_t::WRONG_TIME));
+static_assert(profile_t::CONTINUES == stripe_t::CONTINUES && profile_t::EDGE == stripe_t::EDGE &&
+              profile_t::GAP == stripe_t::GAP && profile_t::BORDER == stripe_t::BORDER &&
+              profile_t::SATURATION == stripe_t::SATURATION);
+
 // The chosen centres alone; second candidates are for those who weigh them.
 ReceivedStripe from_message(const stripe_t& message) {
   ReceivedStripe stripe;
   stripe.source = {message.utime, message.run_id, message.seq, message.scan_id, message.scan_index};
   stripe.sensor_width = message.sensor_width;
   stripe.sensor_height = message.sensor_height;
+  stripe.why = static_cast<EmptyProfile>(message.why);
   stripe.empty = message.empty;
-  if (!stripe.empty.empty()) return stripe;
+  if (stripe.why != EmptyProfile::kNone) return stripe;
   stripe.centres.reserve(message.u.size());
   for (std::size_t i = 0; i < message.u.size(); ++i)
     if (message.rank[i] == stripe_t::CHOSEN)
-      stripe.centres.push_back(
-          {message.u[i], message.v[i], message.deviation[i], message.segment[i]});
-  if (stripe.centres.empty()) stripe.empty = "no centre chosen";
+      stripe.centres.push_back({message.u[i], message.v[i], message.deviation[i],
+                                message.segment[i], message.segment_end[i]});
+  if (stripe.centres.empty()) stripe.why = EmptyProfile::kNoneChosen;
   return stripe;
 }
 
@@ -46,12 +73,12 @@ profile_t to_message(const Profile& profile) {
     message.v.push_back(point.centre.v);
     message.deviation.push_back(static_cast<float>(point.deviation));
     message.segment.push_back(point.centre.segment);
-    message.segment_end.push_back(point.centre.segment_end ? profile_t::SEGMENT_END
-                                                           : profile_t::INSIDE);
+    message.segment_end.push_back(point.centre.segment_end);
   }
   transform_to_arrays(profile.T_base_tool, message.tool_position, message.tool_quaternion);
   Eigen::Map<Eigen::Vector3d>{message.camera_centre} = profile.camera_centre;
   message.calibration_id = profile.calibration_id;
+  message.why = static_cast<std::int8_t>(profile.why);
   message.empty = profile.empty;
   return message;
 }
@@ -124,9 +151,9 @@ void ReconstructionApp::publish_profiles() {
   while (const auto profile = reconstruction_.next()) {
     arrivals_.pop_front();
     bus_.publish(instance_.sensor_channel("PROFILE"), to_message(*profile));
-    if (profile->empty.empty())
+    if (profile->why == EmptyProfile::kNone)
       last_empty_.clear();
-    else if (!profile->empty.starts_with("stripe empty"))
+    else if (!lies_with_stripe(profile->why))
       last_empty_ =
           fmt::format("{}: stripe {} gave no points: {}", instance_.sensor_channel("PROFILE"),
                       profile->source.seq, profile->empty);

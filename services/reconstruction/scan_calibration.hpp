@@ -3,9 +3,9 @@
 
 #include <cstdint>
 #include <memory>
-#include <string>
 
 #include "common/calibration.hpp"
+#include "services/reconstruction/empty_profile.hpp"
 
 namespace arcstart::reconstruction {
 
@@ -17,7 +17,8 @@ class ScanCalibration {
 
   struct Answer {
     std::shared_ptr<const Calibration> calibration;
-    std::string none;  // why there is none. Without either, no calibration is known yet
+    // Why there is none. Without either, no calibration is known yet.
+    EmptyProfile none = EmptyProfile::kNone;
   };
   // For the next stripe; 0 is a stripe outside a scan, for which the newest holds.
   Answer of(std::int64_t scan_id);
@@ -31,7 +32,7 @@ class ScanCalibration {
   std::shared_ptr<const Calibration> newest_;
   std::int64_t scan_id_ = 0;                    // the scan under way
   std::shared_ptr<const Calibration> of_scan_;  // its calibration, null before one is known
-  std::string none_;                            // why it has none from now on
+  EmptyProfile none_ = EmptyProfile::kNone;     // why it has none from now on
 };
 
 }  // namespace arcstart::reconstruction

@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "common/geometry.hpp"
+#include "services/reconstruction/empty_profile.hpp"
 
 namespace arcstart::reconstruction {
 
@@ -23,14 +24,16 @@ struct ReceivedCentre {
   float u = 0, v = 0;        // distorted, as seen; px
   float deviation = 0;       // across the stripe; px, 0 where not measured
   std::int16_t segment = 0;  // centres of a segment are contiguous
-  bool segment_end = false;  // its segment's first or last
+  // Why its segment ends here, as in stripe_t and profile_t: 0 where it continues.
+  std::int8_t segment_end = 0;
 };
 
 struct ReceivedStripe {
   StripeSource source;
   int sensor_width = 0, sensor_height = 0;  // px
   std::vector<ReceivedCentre> centres;      // the chosen ones
-  std::string empty;                        // why there are none
+  EmptyProfile why = EmptyProfile::kNone;   // there are none
+  std::string empty;                        // the same in extraction's words
 };
 
 struct ProfilePoint {
@@ -45,7 +48,8 @@ struct Profile {
   RigidTransform T_base_tool = RigidTransform::Identity();  // at utime + time_offset
   Eigen::Vector3d camera_centre = Eigen::Vector3d::Zero();  // in base; mm
   std::string calibration_id;                               // empty for none
-  std::string empty;                                        // why there are no points
+  EmptyProfile why = EmptyProfile::kNone;                   // there are no points
+  std::string empty;                                        // the same in words
 };
 
 }  // namespace arcstart::reconstruction

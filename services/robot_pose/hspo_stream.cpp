@@ -168,6 +168,7 @@ std::optional<ReportedPosition> HspoStream::position(const ReceivedHspo& packet,
   lost_since_position_ = 0;
 
   ReportedPosition reported;
+  reported.source = RobotProtocol::kHspo;
   reported.seq = seq_;
   const auto& tool = *packet.tool;
   reported.position = {tool[0], tool[1], tool[2]};

@@ -10,17 +10,22 @@
 
 namespace arcstart::robot_pose {
 
+// Protocols, values as in robot_pose_t.
+enum class RobotProtocol : std::int8_t { kUnknown, kHspo, kJ519, kRtde };
+
 // One position as the controller measured and reported it.
 struct ReportedPosition {
   std::int64_t seq = 0;  // rises by 1, and by 1 more for each report that was lost
   Eigen::Vector3d position = Eigen::Vector3d::Zero();            // tool in base; mm
   Eigen::Quaterniond rotation = Eigen::Quaterniond::Identity();  // tool in base
-  std::vector<double> joints;      // rad, as the controller counts them; empty where unknown
-  std::int64_t device_clock = 0;   // the controller's, in its ticks, wraps undone
-  double device_tick_us = 1;       // length of a tick; us
-  std::int64_t arrival_utime = 0;  // us, UTC, host clock
-  bool clock_begins = false;       // nothing before compares with this device_clock
-  std::string invalid;             // why the position or its clock must not be used
+  RobotProtocol source = RobotProtocol::kUnknown;
+  int tool_frame = -1, user_frame = -1;  // the controller's numbers, -1 where it does not say
+  std::vector<double> joints;            // rad, as the controller counts them; empty where unknown
+  std::int64_t device_clock = 0;         // the controller's, in its ticks, wraps undone
+  double device_tick_us = 1;             // length of a tick; us
+  std::int64_t arrival_utime = 0;        // us, UTC, host clock
+  bool clock_begins = false;             // nothing before compares with this device_clock
+  std::string invalid;                   // why the position or its clock must not be used
 };
 
 struct PoseSourceCounts {

@@ -9,6 +9,11 @@
 namespace arcstart::robot_pose {
 namespace {
 
+static_assert(static_cast<int>(RobotProtocol::kUnknown) == robot_pose_t::UNKNOWN &&
+              static_cast<int>(RobotProtocol::kHspo) == robot_pose_t::HSPO &&
+              static_cast<int>(RobotProtocol::kJ519) == robot_pose_t::J519 &&
+              static_cast<int>(RobotProtocol::kRtde) == robot_pose_t::RTDE);
+
 constexpr std::int64_t kScanStateHolds = 2'000'000;  // LASER0_SCAN comes at 5 Hz
 constexpr std::int64_t kErrorIsTold = 10'000'000;
 constexpr std::int64_t kHeldBack = 5'000;  // us that a better known clock may cost
@@ -52,6 +57,9 @@ void RobotPoseApp::publish(const ReportedPosition& reported) {
   Eigen::Map<Eigen::Vector3d>(pose.position) = reported.position;
   pose.quaternion[0] = reported.rotation.w();
   Eigen::Map<Eigen::Vector3d>(pose.quaternion + 1) = reported.rotation.vec();
+  pose.source = static_cast<std::int8_t>(reported.source);
+  pose.tool_frame = static_cast<std::int16_t>(reported.tool_frame);
+  pose.user_frame = static_cast<std::int16_t>(reported.user_frame);
   pose.joint_count = static_cast<std::int8_t>(reported.joints.size());
   pose.joints = reported.joints;
   pose.device_clock = reported.device_clock;

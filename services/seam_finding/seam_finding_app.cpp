@@ -77,15 +77,13 @@ void SeamFindingApp::answer_decided() {
 }
 
 seam_t SeamFindingApp::take_workpiece(const CollectedScan& scan) {
-  std::string error;
-  const StoredBackground* background =
-      background_for(scan.state.scan_id, calibration_of(scan, error));
+  const StoredBackground* background = background_for(scan.state.scan_id, calibration_of(scan));
   return answer_workpiece(scan, running_.finish(scan, background), background, settings_,
                           calibration_for(scan));
 }
 
 seam_t SeamFindingApp::take_background(const CollectedScan& scan) {
-  const std::string error = background_error(scan);
+  const ScanRefusal error = background_error(scan);
   seam_t receipt = answer_background(scan, error);
   if (!error.empty()) return receipt;
   remember(scan);
@@ -114,8 +112,7 @@ void SeamFindingApp::remember(const CollectedScan& scan) {
 }
 
 const Calibration* SeamFindingApp::calibration_for(const CollectedScan& scan) const {
-  std::string error;
-  const std::string id = calibration_of(scan, error);
+  const std::string id = calibration_of(scan);
   for (const Calibration& calibration : calibrations_)
     if (calibration.id == id) return &calibration;
   return nullptr;
@@ -154,14 +151,9 @@ void SeamFindingApp::tick(std::int64_t) {
     next_repeat_ = now + kRepetition;
   }
   if (!collector_.is_open() || now - alive_ < seconds_to_us(settings_.dead_chain_s)) return;
-  collector_.give_up(
-      collector_.awaits_profiles()
-          ? fmt::format("chain dead: no profile for {} s after the scan's end: see the STATUS of "
-                        "extraction, reconstruction and robot_pose",
-                        settings_.dead_chain_s)
-          : fmt::format("chain dead: no word of the running scan for {} s: see the STATUS of "
-                        "sensor_capture",
-                        settings_.dead_chain_s));
+  collector_.give_up(refuse_scan(
+      collector_.awaits_profiles() ? seam_t::NO_PROFILES : seam_t::SENSOR_CAPTURE_SILENT,
+      fmt::format("{}", settings_.dead_chain_s)));
   answer_decided();
 }
 

@@ -2,6 +2,7 @@
 
 #include <opencv2/imgcodecs.hpp>
 
+#include "common/bus/crc32c.hpp"
 #include "services/sensor_capture/frames/preview.hpp"
 
 namespace arcstart::sensor_capture {
@@ -12,6 +13,32 @@ constexpr int kPreviewPixels = 49'000;  // with its header at most 50 KB
 static_assert(static_cast<int>(ScanState::Phase::kIdle) == scan_t::IDLE &&
               static_cast<int>(ScanState::Phase::kScanning) == scan_t::SCANNING &&
               static_cast<int>(ScanState::Phase::kEnded) == scan_t::ENDED);
+static_assert(static_cast<int>(EndCause::kNone) == scan_t::NONE &&
+              static_cast<int>(EndCause::kStop) == scan_t::STOP &&
+              static_cast<int>(EndCause::kLongestDuration) == scan_t::LONGEST_DURATION &&
+              static_cast<int>(EndCause::kStandstill) == scan_t::STANDSTILL &&
+              static_cast<int>(EndCause::kCameraLost) == scan_t::CAMERA_LOST);
+
+const char* to_words(EndCause cause) {
+  switch (cause) {
+    case EndCause::kNone:
+      break;
+    case EndCause::kStop:
+      return "stop";
+    case EndCause::kLongestDuration:
+      return "longest duration";
+    case EndCause::kStandstill:
+      return "tool stood still";
+    case EndCause::kCameraLost:
+      return "camera lost";
+  }
+  return "";
+}
+
+void put_size_and_checksum(image_t& image) {
+  image.size = static_cast<std::int32_t>(image.data.size());
+  image.crc32c = image.data.empty() ? 0 : crc32c(image.data);
+}
 
 }  // namespace
 
@@ -46,7 +73,7 @@ void put_pixels(image_t& image, Frame& frame, bool as_png) {
   } else {
     image.data = std::move(frame.pixels);
   }
-  image.size = static_cast<std::int32_t>(image.data.size());
+  put_size_and_checksum(image);
 }
 
 image_t make_preview_message(const image_t& image, const Frame& frame) {
@@ -55,7 +82,7 @@ image_t make_preview_message(const image_t& image, const Frame& frame) {
   message.width = static_cast<std::int16_t>(preview.width);
   message.height = static_cast<std::int16_t>(preview.height);
   message.data = std::move(preview.pixels);
-  message.size = static_cast<std::int32_t>(message.data.size());
+  put_size_and_checksum(message);
   return message;
 }
 
@@ -70,14 +97,24 @@ scan_t make_scan_message(const ScanState& state) {
   message.last_seq = state.scan.last_seq;
   message.images = state.scan.images;
   message.lost = state.scan.lost;
-  message.end_reason = state.scan.end_reason;
+  message.end_cause = static_cast<std::int8_t>(state.scan.end_cause);
+  message.end_reason = to_words(state.scan.end_cause);
+  message.start_command_id = state.scan.start_command_id;
+  message.request = state.scan.purpose.request;
+  message.job = state.scan.purpose.job;
+  message.part = state.scan.purpose.part;
+  message.clock_difference = 0;  // nobody compares the hosts' clocks yet
+  message.clock_bound = -1;
   message.refused_command_id = state.refused_command_id;
   message.refusal = state.refusal;
   message.previous_scan_id = state.previous.scan_id;
   message.previous_kind = state.previous.kind;
   message.previous_end_utime = state.previous.end_utime;
+  message.previous_end_cause = static_cast<std::int8_t>(state.previous.end_cause);
+  message.previous_first_seq = state.previous.first_seq;
   message.previous_last_seq = state.previous.last_seq;
   message.previous_images = state.previous.images;
+  message.previous_lost = state.previous.lost;
   return message;
 }
 

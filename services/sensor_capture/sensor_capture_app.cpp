@@ -1,6 +1,7 @@
 #include "services/sensor_capture/sensor_capture_app.hpp"
 
 #include <fmt/core.h>
+#include <fmt/format.h>
 #include <spdlog/spdlog.h>
 
 #include <algorithm>
@@ -137,8 +138,11 @@ void SensorCaptureApp::take(const SettingsApplied& applied, std::int64_t now) {
 
 void SensorCaptureApp::take_scan_command(const scan_command_t& command) {
   const std::int64_t now = utime_now();
-  owner_.order({command.command_id, command.action == scan_command_t::START, command.kind,
-                command.longest_duration},
+  owner_.order({command.command_id,
+                command.action == scan_command_t::START,
+                command.kind,
+                command.longest_duration,
+                {command.request, command.job, command.part}},
                now, camera_trouble_);
   follow_scan(now);
 }
@@ -152,6 +156,15 @@ void SensorCaptureApp::take_camera_command(const camera_command_t& command) {
   if (owner_.scanning() || !found_) {
     spdlog::warn(fmt::format("camera command {} is refused: {}", command.command_id,
                              found_ ? "a scan is running" : camera_trouble_));
+    return;
+  }
+  // Whole images in place of a region would be taken for what was asked.
+  if (command.width > 0 || command.frame_rate > 0) {
+    error_ = fmt::format(
+        "camera command {} is refused: region and frame rate cannot be commanded yet: send 0 for "
+        "both and set them in cell.yaml",
+        command.command_id);
+    error_until_ = steady_now() + kErrorIsTold;
     return;
   }
   if (command_) end_command("another has come");

@@ -61,7 +61,7 @@ struct Cell {
     scan.run_id = 1;
     scan.state = state;
     scan.scan_id = scan.begin_utime = scan_id;
-    if (state == scan_t::ENDED) scan.end_utime = scan.utime;
+    if (state == scan_t::ENDED) scan.end_utime = scan.utime, scan.end_cause = scan_t::STOP;
     scan.first_seq = scan.last_seq = -1;
     bus->publish("LASER0_SCAN", scan);
     tick();

@@ -6,6 +6,8 @@
 #include <opencv2/imgcodecs.hpp>
 #include <random>
 
+#include "common/bus/crc32c.hpp"
+#include "services/extraction/extraction_app.hpp"
 #include "tests/extraction/support/stripe_image.hpp"
 
 using namespace arcstart;
@@ -17,6 +19,11 @@ cv::Mat picture(double at = 60, double width = 2) {
   cv::Mat light = darkness(320, 160);
   add_stripe(light, -10, at, 330, at + 17, 150, width);
   return expose(light, 2);
+}
+
+void put_checksum(image_t& image) {
+  image.size = static_cast<std::int32_t>(image.data.size());
+  image.crc32c = image.data.empty() ? 0 : crc32c(image.data);
 }
 
 class Cell {
@@ -42,7 +49,7 @@ class Cell {
     message.laser_on = 1;
     message.encoding = image_t::MONO8;
     message.data.assign(grey.datastart, grey.dataend);
-    message.size = static_cast<std::int32_t>(message.data.size());
+    put_checksum(message);
     return message;
   }
 
@@ -59,6 +66,7 @@ class Cell {
     CHECK(stripe.scan_id == image.scan_id);
     CHECK(stripe.scan_index == image.scan_index);
     CHECK(meaning_error(stripe).empty());
+    CHECK((stripe.count == 0) == (stripe.why != stripe_t::NONE));
     CHECK((stripe.count == 0) == !stripe.empty.empty());
     return stripe;
   }
@@ -106,7 +114,7 @@ TEST_CASE("a PNG gives the same stripe as the plain bytes") {
   image_t image = Cell::image(picture(), 0);
   const stripe_t plain = Cell().answer(image);
   cv::imencode(".png", picture(), image.data);
-  image.size = static_cast<std::int32_t>(image.data.size());
+  put_checksum(image);
   image.encoding = image_t::PNG;
   CHECK(encode(Cell().answer(image)) == encode(plain));
 }
@@ -114,37 +122,49 @@ TEST_CASE("a PNG gives the same stripe as the plain bytes") {
 TEST_CASE("what holds no stripe gives an empty one with its reason") {
   Cell cell;
   std::int64_t seq = 0;
+  std::int8_t why = stripe_t::NONE;  // of the last
   const auto reason = [&](image_t image) {
     image.seq = seq;
     image.scan_index = static_cast<std::int32_t>(seq++);
-    return cell.answer(image).empty;
+    const stripe_t& stripe = cell.answer(image);
+    why = stripe.why;
+    return stripe.empty;
   };
   image_t incomplete = Cell::image(picture(), 0);
   incomplete.incomplete = "3 packets missing";
   incomplete.data.clear();
-  incomplete.size = 0;
+  put_checksum(incomplete);
   CHECK(reason(incomplete) == "image incomplete: 3 packets missing");
+  CHECK(why == stripe_t::INCOMPLETE_IMAGE);
   image_t dark = Cell::image(picture(), 0);
   dark.laser_on = 0;
   CHECK(reason(dark) == "laser off");
+  CHECK(why == stripe_t::LASER_OFF);
   CHECK(reason(Cell::image(cv::Mat(160, 320, CV_8U, cv::Scalar(0)), 0)) == "no stripe found");
   CHECK(reason(Cell::image(cv::Mat(160, 320, CV_8U, cv::Scalar(255)), 0)) == "no stripe found");
   CHECK(reason(Cell::image(cv::Mat(1, 1, CV_8U, cv::Scalar(7)), 0)) == "no stripe found");
+  CHECK(why == stripe_t::NO_STRIPE);
+  image_t coloured = Cell::image(picture(), 0);
+  coloured.encoding = image_t::BAYER_RG8;
+  CHECK(reason(coloured) == "encoding 3 is not read yet: send MONO8 or PNG");
+  CHECK(why == stripe_t::UNKNOWN_ENCODING);
 
   image_t png = Cell::image(picture(), 0);
   png.encoding = image_t::PNG;
   CHECK(reason(png) == "not a PNG");
+  CHECK(why == stripe_t::UNREADABLE_IMAGE);
   cv::imencode(".png", picture(), png.data);
   const auto whole = png.data;
   const auto with = [&](const std::vector<std::uint8_t>& bytes) {
     png.data = bytes;
-    png.size = static_cast<std::int32_t>(bytes.size());
+    put_checksum(png);
     return png;
   };
   CHECK(reason(with({whole.begin(), whole.begin() + 5000})) == "PNG is cut short");
   std::vector<std::uint8_t> damaged = whole;
   damaged[3000] ^= 0x55;
   CHECK(reason(with(damaged)) == "PNG is damaged");
+  CHECK(why == stripe_t::UNREADABLE_IMAGE);
   cv::Mat smaller = picture()(cv::Rect(0, 0, 300, 160)).clone();
   std::vector<std::uint8_t> other;
   cv::imencode(".png", smaller, other);

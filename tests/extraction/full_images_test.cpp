@@ -31,11 +31,13 @@ TEST_CASE("an image of more ridge points than can be told apart is refused, and 
   // Of 8 px, at sigma 2.5: as many points as an eighth of the pixels.
   const Stripe stripe = extractor.extract(view_of(expose(checkers(8, 0, 255), 0)));
   CHECK(stripe.centres.empty());
+  CHECK(stripe.why == EmptyStripe::kTooMuchLight);
   CHECK(stripe.empty == "more than 153600 ridge points, too many to tell a stripe from");
   // The next image is looked at anew.
   cv::Mat light = darkness(kWidth, kHeight);
   add_stripe(light, -20, 500, kWidth + 20, 700, 150, 2);
   const Stripe next = extractor.extract(view_of(expose(light, 2)));
+  CHECK(next.why == EmptyStripe::kNone);
   CHECK(next.empty.empty());
   CHECK(next.centres.size() > 1500);
 }

@@ -215,6 +215,7 @@ TEST_CASE("images without a stripe give none, and say so") {
   const auto none = [](const cv::Mat& grey) {
     const Stripe stripe = extract(grey);
     CHECK(stripe.centres.empty());
+    CHECK(stripe.why == EmptyStripe::kNoStripe);
     CHECK(stripe.empty == "no stripe found");
   };
   none(cv::Mat());

@@ -2,8 +2,11 @@
 // proportion to the packet; what decodes to its last byte and has a meaning survives another round.
 #include <cstdint>
 #include <cstdlib>
+#include <iterator>
+#include <type_traits>
 #include <vector>
 
+#include "common/bus/crc32c.hpp"
 #include "common/bus/message_checks.hpp"
 
 namespace {
@@ -19,6 +22,9 @@ void feed(const std::uint8_t* data, std::size_t size) {
   Message message{};
   const int length = static_cast<int>(bytes.size());
   if (message.decode(bytes.data(), 0, length) != length) return;
+  // No fuzzer guesses a checksum, and hardly anything else that rests on every byte.
+  if constexpr (std::is_same_v<Message, arcstart::image_t>)
+    message.crc32c = message.data.empty() ? 0 : arcstart::crc32c(message.data);
   if (!arcstart::meaning_error(message).empty()) return;
   std::vector<std::uint8_t> again(static_cast<std::size_t>(message.getEncodedSize()));
   if (message.encode(again.data(), 0, static_cast<int>(again.size())) < 0) std::abort();

@@ -35,6 +35,7 @@ ReceivedStripe stripe(std::int64_t time, std::int64_t seq, std::int64_t scan_id 
 ReceivedStripe empty_stripe(std::int64_t time, std::int64_t seq) {
   ReceivedStripe result = stripe(time, seq);
   result.centres.clear();
+  result.why = EmptyProfile::kNoStripe;
   result.empty = "too dark";
   return result;
 }
@@ -56,10 +57,11 @@ struct Bench {
   std::vector<std::string> ready() {
     std::vector<std::string> lines;
     while (const auto profile = reconstruction.next())
-      lines.push_back(fmt::format(
-          "{}: {}", profile->source.seq,
-          profile->empty.empty() ? fmt::format("x={:g}", profile->T_base_tool.translation().x())
-                                 : profile->empty));
+      lines.push_back(
+          fmt::format("{}: {}", profile->source.seq,
+                      profile->why == EmptyProfile::kNone
+                          ? fmt::format("x={:g}", profile->T_base_tool.translation().x())
+                          : profile->empty));
     return lines;
   }
 };

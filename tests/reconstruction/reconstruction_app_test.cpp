@@ -67,6 +67,7 @@ TEST_CASE("every stripe gets its profile, and its points lie where they were lit
     CHECK(profile.scan_id == 42);
     CHECK(profile.scan_index == stripe.scan_index);
     CHECK(profile.calibration_id == "0123456789abcdef");
+    CHECK(profile.why == profile_t::NONE);
     CHECK(profile.empty == "");
     REQUIRE(profile.count == stripe.count);
     for (std::size_t i = 0; i < truth[n].points.size(); ++i) {
@@ -75,10 +76,12 @@ TEST_CASE("every stripe gets its profile, and its points lie where they were lit
       CHECK(cv::norm(point - truth[n].points[i]) < 2e-4);
       CHECK(profile.deviation[i] > 0.005);
       CHECK(profile.deviation[i] < 0.05);
-      const bool end = i == 0 || i + 1 == truth[n].points.size() ||
-                       stripe.segment[i] != stripe.segment[i - 1] ||
+      const bool outermost = i == 0 || i + 1 == truth[n].points.size();
+      const bool end = outermost || stripe.segment[i] != stripe.segment[i - 1] ||
                        stripe.segment[i] != stripe.segment[i + 1];
-      CHECK(profile.segment_end[i] == (end ? profile_t::SEGMENT_END : profile_t::INSIDE));
+      CHECK(profile.segment_end[i] == (outermost ? profile_t::BORDER
+                                       : end     ? profile_t::EDGE
+                                                 : profile_t::CONTINUES));
     }
     const cv::Matx44d tool =
         tool_at(static_cast<double>(stripe.utime - kBegin - kImageDelay) * 1e-6);
@@ -117,8 +120,8 @@ TEST_CASE("second candidates become no points, and down-sampling keeps the chose
     return (length + 14) / 15 + ((length - 1) % 15 != 0 ? 1 : 0);
   };
   CHECK(profile.count == expected(first) + expected(second));
-  CHECK(std::count(profile.segment_end.begin(), profile.segment_end.end(),
-                   profile_t::SEGMENT_END) == 4);
+  CHECK(std::count(profile.segment_end.begin(), profile.segment_end.end(), profile_t::BORDER) == 2);
+  CHECK(std::count(profile.segment_end.begin(), profile.segment_end.end(), profile_t::EDGE) == 2);
   CHECK(profile.u.front() == stripe.u.front());
   CHECK(profile.u.back() == stripe.u[static_cast<std::size_t>(chosen) - 1]);
 }
@@ -131,7 +134,9 @@ TEST_CASE("the same bytes come out for any shift between the channels up to 300 
                                      [](const Event& e) { return e.channel == "LASER0_STRIPE"; });
   REQUIRE(reference.bytes.size() == static_cast<std::size_t>(stripes));
   std::map<std::string, int> reasons;
-  for (const profile_t& profile : reference.profiles) ++reasons[profile.empty];
+  std::map<int, int> codes;
+  for (const profile_t& profile : reference.profiles)
+    ++reasons[profile.empty], ++codes[profile.why];
   CHECK(reasons[""] > 40);
   CHECK(reasons["stripe empty: no stripe"] == 6);
   CHECK(reasons["no position before it"] == 2);
@@ -139,6 +144,12 @@ TEST_CASE("the same bytes come out for any shift between the channels up to 300 
   CHECK(reasons["image of 800 x 1200 px, calibration of 1600 x 1200 px"] == 1);
   CHECK(reasons["its time lies far ahead of the positions and of the stripe after it"] == 1);
   CHECK(reasons.size() == 6);
+  CHECK(codes[profile_t::NONE] == reasons[""]);
+  CHECK(codes[profile_t::NO_STRIPE] == 6);
+  CHECK(codes[profile_t::NO_POSITION] == 2 + reasons["positions 480 ms apart"]);
+  CHECK(codes[profile_t::OTHER_SENSOR] == 1);
+  CHECK(codes[profile_t::WRONG_TIME] == 1);
+  CHECK(codes.size() == 5);
 
   std::mt19937 random(1);
   for (int n = 0; n < 60; ++n) {

@@ -14,7 +14,7 @@ std::shared_ptr<const Calibration> named(const std::string& id) {
 }
 
 std::string id_of(const ScanCalibration::Answer& answer) {
-  return answer.calibration ? answer.calibration->id : "none: " + answer.none;
+  return answer.calibration ? answer.calibration->id : "none: " + to_words(answer.none);
 }
 
 }  // namespace

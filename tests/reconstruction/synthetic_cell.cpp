@@ -137,11 +137,16 @@ TrueStripe stripe_at(std::int64_t time, int number, std::int64_t scan_id) {
   message.segment_end.assign(count, stripe_t::CONTINUES);
   for (std::size_t i = 0; i < count; ++i)  // two segments
     message.segment.push_back(i < count / 3 ? 0 : 1);
+  if (count >= 6) {
+    message.segment_end.front() = message.segment_end.back() = stripe_t::BORDER;
+    message.segment_end[count / 3 - 1] = message.segment_end[count / 3] = stripe_t::EDGE;
+  }
   return stripe;
 }
 
 stripe_t empty_stripe_at(std::int64_t time, int number, std::int64_t scan_id) {
   stripe_t message = header(time, number, scan_id);
+  message.why = stripe_t::NO_STRIPE;
   message.empty = "no stripe";
   return message;
 }

@@ -63,6 +63,7 @@ struct Cell {
     scan_t scan{};
     scan.utime = scan.run_id = 1;
     scan.state = state;
+    scan.end_cause = state == scan_t::ENDED ? scan_t::STOP : scan_t::NONE;
     bus->publish("LASER0_SCAN", scan);
     while (bus->handle(std::chrono::milliseconds(0))) {
     }
@@ -79,6 +80,8 @@ TEST_CASE("robot_pose: one message a position, every field carried over") {
   position.seq = 41;
   position.position = {1, 2, 3};
   position.rotation = Eigen::Quaterniond(0.5, 0.5, -0.5, 0.5);
+  position.source = RobotProtocol::kRtde;
+  position.tool_frame = 3;
   position.joints = {0.1, 0.2};
   position.device_clock = 500;
   position.device_tick_us = 2000;
@@ -95,6 +98,9 @@ TEST_CASE("robot_pose: one message a position, every field carried over") {
   CHECK(pose.position[2] == 3);
   CHECK(pose.quaternion[0] == 0.5);
   CHECK(pose.quaternion[2] == -0.5);
+  CHECK(pose.source == robot_pose_t::RTDE);
+  CHECK(pose.tool_frame == 3);
+  CHECK(pose.user_frame == -1);
   CHECK(pose.joint_count == 2);
   CHECK(pose.joints == std::vector<double>{0.1, 0.2});
   CHECK(pose.device_clock == 500);

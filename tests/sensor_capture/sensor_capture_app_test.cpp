@@ -2,6 +2,7 @@
 #include <catch2/catch.hpp>
 #include <opencv2/imgcodecs.hpp>
 
+#include "common/bus/crc32c.hpp"
 #include "tests/sensor_capture/support/scripted_cell.hpp"
 
 using namespace arcstart;
@@ -61,6 +62,7 @@ TEST_CASE("sensor_capture: a scan's images, their fields and its state") {
     CHECK(image.encoding == image_t::MONO8);
     CHECK(image.incomplete == "");
     CHECK(image.data == std::vector<std::uint8_t>(32, static_cast<std::uint8_t>(103 + i)));
+    CHECK(image.crc32c == crc32c(image.data));
     // The middle of the exposure. The clock's mapping stands still: the difference is the first
     // frame's, and here every frame arrives as it is stamped.
     CHECK(image.utime == image.device_time_ns / 1000 - kDeviceAhead + kScriptedExposure / 2);
@@ -75,7 +77,13 @@ TEST_CASE("sensor_capture: a scan's images, their fields and its state") {
   CHECK(ended.last_seq == 105);
   CHECK(ended.images == 3);
   CHECK(ended.lost == 0);
+  CHECK(ended.end_cause == scan_t::STOP);
   CHECK(ended.end_reason == "stop");
+  CHECK(ended.start_command_id == 7);
+  CHECK(ended.request == 42);
+  CHECK(ended.job == "job 7");
+  CHECK(ended.part == "part 7");
+  CHECK(ended.clock_bound == -1);
   CHECK(ended.end_utime > cell.images.back().utime);
   // The last image comes before the word that it was the last.
   const auto last_image = std::find(cell.order.rbegin(), cell.order.rend(), "image");
@@ -128,6 +136,7 @@ TEST_CASE("sensor_capture: a camera lost in a scan ends it; found again it is da
   cell.script.events.push_back(CameraLost{"gone"});
   cell.step();
   CHECK(cell.scans.back().state == scan_t::ENDED);
+  CHECK(cell.scans.back().end_cause == scan_t::CAMERA_LOST);
   CHECK(cell.scans.back().end_reason == "camera lost");
   CHECK(cell.scans.back().last_seq == cell.images.back().seq);
   CHECK(cell.app->health().state == service_status_t::FAULT);

@@ -56,6 +56,8 @@ cv::Mat decoded(const image_t& image, std::string& trouble) {
   else if (image.encoding == image_t::PNG)
     trouble = extraction::decode_grey_png(image.data.data(), image.data.size(), image.width,
                                           image.height, grey);
+  else if (image.encoding != image_t::MONO8)
+    trouble = fmt::format("encoding {} is not read yet: send MONO8 or PNG", image.encoding);
   else
     grey = cv::Mat(image.height, image.width, CV_8U, const_cast<std::uint8_t*>(image.data.data()))
                .clone();

@@ -72,6 +72,8 @@ void Traffic::take(const std::string& name, const std::vector<std::uint8_t>& byt
   channel.size = bytes.size();
   if (!message_error(channel.kind, bytes).empty()) {
     ++channel.undecodable;
+    if (const std::string former = former_type(bytes); !former.empty())
+      channel.state = former + " of the version before: bring its sender to this version";
     return;
   }
   if (is_measurement(channel.kind)) note_source(channel, bytes);

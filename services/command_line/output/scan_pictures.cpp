@@ -27,6 +27,8 @@ int chosen_segments(const stripe_t& stripe) {
 
 cv::Mat grey_of(const image_t& image) {
   if (image.encoding == image_t::PNG) return cv::imdecode(image.data, cv::IMREAD_GRAYSCALE);
+  // No stripe comes of other encodings: they are not read yet.
+  if (image.encoding != image_t::MONO8) return cv::Mat::zeros(image.height, image.width, CV_8U);
   cv::Mat grey(image.height, image.width, CV_8U);
   std::copy(image.data.begin(), image.data.end(), grey.data);
   return grey;

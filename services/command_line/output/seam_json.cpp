@@ -53,11 +53,8 @@ Json station(const seam_station_t& s) {
 }
 
 Json alternative(const seam_alternative_t& a) {
-  return {{"joint_type", a.joint_type},
-          {"score", a.score},
-          {"start", numbers(a.start)},
-          {"end", numbers(a.end)},
-          {"reason", a.reason}};
+  return {{"joint_type", a.joint_type}, {"score", a.score},     {"start", numbers(a.start)},
+          {"end", numbers(a.end)},      {"refusal", a.refusal}, {"reason", a.reason}};
 }
 
 }  // namespace
@@ -68,18 +65,28 @@ nlohmann::ordered_json seam_to_json(const seam_t& seam) {
                {"scan_id", seam.scan_id},
                {"background_scan_id", seam.background_scan_id},
                {"calibration_id", seam.calibration_id},
+               {"command_id", seam.command_id},
+               {"request", seam.request},
+               {"job", seam.job},
+               {"part", seam.part},
                {"verdict", verdict_word(seam.verdict)},
+               {"refusal", seam.refusal},
                {"reason", seam.reason},
+               {"usable", seam.usable},
                {"remark", seam.remark},
                {"joint_type", seam.joint_type},
                {"start", numbers(seam.start)},
                {"start_covariance", matrix(seam.start_covariance)},
                {"start_systematic", matrix(seam.start_systematic)},
                {"start_visibility", visibility_word(seam.start_visibility)},
+               {"start_second", numbers(seam.start_second)},
+               {"start_second_weight", seam.start_second_weight},
                {"end", numbers(seam.end)},
                {"end_covariance", matrix(seam.end_covariance)},
                {"end_systematic", matrix(seam.end_systematic)},
                {"end_visibility", visibility_word(seam.end_visibility)},
+               {"end_second", numbers(seam.end_second)},
+               {"end_second_weight", seam.end_second_weight},
                {"direction", numbers(seam.direction)},
                {"direction_deviation", seam.direction_deviation},
                {"normals", matrix(seam.normals)},
@@ -88,6 +95,12 @@ nlohmann::ordered_json seam_to_json(const seam_t& seam) {
                {"angle_deviation", seam.angle_deviation},
                {"gap", seam.gap},
                {"gap_deviation", seam.gap_deviation},
+               {"thickness", seam.thickness},
+               {"mismatch", seam.mismatch},
+               {"groove_angle", seam.groove_angle},
+               {"stripes_checked", seam.stripes_checked},
+               {"explained_share", seam.explained_share},
+               {"worst_contradiction", seam.worst_contradiction},
                {"polyline", seam.polyline},
                {"polyline_deviation", seam.polyline_deviation},
                {"stations", Json::array()},
@@ -101,6 +114,8 @@ nlohmann::ordered_json seam_to_json(const seam_t& seam) {
                {"seam_points", seam.seam_points},
                {"stripes", seam.stripes},
                {"stripes_empty", seam.stripes_empty},
+               {"stripes_overlit", seam.stripes_overlit},
+               {"stripes_unusable", seam.stripes_unusable},
                {"stripes_without_pose", seam.stripes_without_pose},
                {"images_lost", seam.images_lost},
                {"profiles_lost", seam.profiles_lost}};

@@ -114,7 +114,10 @@ std::string read_source(ChannelKind kind, std::span<const std::uint8_t> first_by
                         Source& source) {
   // The hash of a type without nested types is the first word on the wire as it stands.
   if (first_bytes.size() < Source::kBytes) return "too short";
-  if (big_endian(first_bytes, 0) != type_hash(kind)) return "of another type or version";
+  if (big_endian(first_bytes, 0) != type_hash(kind)) {
+    const std::string former = former_type(first_bytes);
+    return former.empty() ? "of another type or version" : former + " of the version before";
+  }
   source.utime = big_endian(first_bytes, 8);
   source.run_id = big_endian(first_bytes, 16);
   source.seq = big_endian(first_bytes, 24);

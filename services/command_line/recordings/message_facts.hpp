@@ -7,6 +7,7 @@
 #include <string>
 #include <vector>
 
+#include "common/bus/former_types.hpp"
 #include "common/bus/message_checks.hpp"
 
 namespace arcstart::command_line {
@@ -45,7 +46,7 @@ std::string decode(const std::vector<std::uint8_t>& bytes, Message& message) {
   const int size = static_cast<int>(bytes.size());
   message = {};  // fresh: lcm-gen leaves old elements in a vector whose count is 0
   if (message.decode(bytes.data(), 0, size) != size)
-    return "not a " + std::string(Message::getTypeName()) + " of this version, or damaged";
+    return undecodable_reason(bytes, Message::getTypeName());
   return meaning_error(message);
 }
 

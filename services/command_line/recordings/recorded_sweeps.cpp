@@ -47,7 +47,7 @@ RecordedSweeps read_sweeps(const std::vector<std::string>& paths, const std::str
   int positions = 0;
   bus->subscribe<stripe_t>(instance.sensor_channel("STRIPE"), Queue::measurements(),
                            [&](const stripe_t& message) {
-                             if (message.empty.empty())
+                             if (message.why == stripe_t::NONE)
                                sweeps.record.stripes.push_back(swept_stripe(message));
                            });
   bus->subscribe<robot_pose_t>(

@@ -62,6 +62,7 @@ Recording::Recording(const std::vector<std::string>& paths, const std::string& s
     warnings_.push_back(
         fmt::format("{}: damaged, whole up to there: {}", printable(log.path()), log.damage()));
   }
+  refuse_former_version();
   choose_instances(sensor, robot);
   for (std::size_t log = 0; log < logs_.size(); ++log)
     for (std::size_t entry = 0; entry < logs_[log].entries().size(); ++entry) take_in(log, entry);
@@ -71,6 +72,26 @@ Recording::Recording(const std::vector<std::string>& paths, const std::string& s
     const RecordedScan& scan = entry.second;
     return scan.messages == std::array<int, 3>{} && !scan.begun;
   });
+}
+
+// Each channel's first message tells: a recording of the version before would otherwise look like
+// one of which every message is damaged.
+void Recording::refuse_former_version() const {
+  for (const auto& log : logs_) {
+    std::set<std::string> looked_at;
+    for (const auto& entry : log.entries()) {
+      const ChannelKind kind = channel_kind(entry.channel);
+      const bool is_read = is_measurement(kind) || kind == ChannelKind::kScan ||
+                           kind == ChannelKind::kCalibration || kind == ChannelKind::kStatus;
+      if (!is_read || !looked_at.insert(entry.channel).second) continue;
+      const std::string former = former_type(log.read(entry, 8));
+      if (!former.empty())
+        throw RecordingError(fmt::format(
+            "{}: is of the version before this one: {} holds the former {}: record it again, or "
+            "replay it with the arcstart that made it",
+            printable(log.path()), printable(entry.channel), former));
+    }
+  }
 }
 
 void Recording::choose_instances(const std::string& sensor, const std::string& robot) {

@@ -80,6 +80,7 @@ class Recording {
       const;  // damage, undecodable messages, losses of the logger: one line each
 
  private:
+  void refuse_former_version() const;
   void choose_instances(const std::string& sensor, const std::string& robot);
   void take_in(std::size_t log, std::size_t entry);
   void take_measurement(ChannelKind kind, RecordedMessage message);

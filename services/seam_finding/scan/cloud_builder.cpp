@@ -10,13 +10,9 @@ constexpr std::size_t kLongestScan = 100'000;  // stripes: a seq beyond is damag
 constexpr std::size_t kUsualPoints = 1 << 17;  // room from the begin: moved in no profile's time
 constexpr double kFarthest = 1e5;              // mm: a point farther away is damage, too
 
-// A whole image without a stripe tells that nothing was there; one that was cut short, or of which
-// the position is not known, tells nothing.
 ScanStripe::Seen seen_in(const profile_t& profile) {
   if (profile.count > 0) return ScanStripe::Seen::kSeen;
-  const bool nothing = profile.empty.starts_with("stripe empty: no ") ||
-                       profile.empty == "no point within the working range";
-  return nothing ? ScanStripe::Seen::kEmpty : ScanStripe::Seen::kMissing;
+  return showed_nothing(profile) ? ScanStripe::Seen::kEmpty : ScanStripe::Seen::kMissing;
 }
 
 // Way on the surface that is a pixel along the stripe there: from the neighbour that down-sampling
@@ -34,6 +30,11 @@ float step_at(const profile_t& profile, int i) {
 }
 
 }  // namespace
+
+bool showed_nothing(const profile_t& profile) {
+  return profile.why == profile_t::NO_STRIPE || profile.why == profile_t::NONE_CHOSEN ||
+         profile.why == profile_t::OUT_OF_RANGE;
+}
 
 CloudBuilder::CloudBuilder(std::int64_t first_seq) : next_seq_(first_seq) {
   cloud_.points.reserve(kUsualPoints);
@@ -55,8 +56,8 @@ void CloudBuilder::add(const profile_t& profile) {
     if (point.cwiseAbs().maxCoeff() > kFarthest) continue;
     cloud_.points.push_back(point);
     cloud_.origins.push_back({stripe, profile.segment[i],
-                              profile.segment_end[i] == profile_t::SEGMENT_END,
-                              profile.deviation[i], step_at(profile, i)});
+                              profile.segment_end[i] != profile_t::CONTINUES, profile.deviation[i],
+                              step_at(profile, i)});
   }
   end_stripe(cloud_, seen_in(profile), Eigen::Map<const Eigen::Vector3d>(profile.camera_centre),
              Eigen::Map<const Eigen::Vector3d>(profile.tool_position));

@@ -8,6 +8,10 @@
 
 namespace arcstart::seam_finding {
 
+// A whole image showed nothing within the working range: nothing was there. (Of one that was cut
+// short or over-lit, or whose position is not known, nobody can say.)
+bool showed_nothing(const profile_t& profile);
+
 class CloudBuilder {
  public:
   // first_seq: of the scan's first image, -1 where that is not known: then as the first profile's

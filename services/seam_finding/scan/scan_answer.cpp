@@ -20,25 +20,56 @@ seam_t empty_answer(const CollectedScan& scan) {
   seam.utime = scan.state.end_utime != 0 ? scan.state.end_utime : scan.state.begin_utime;
   seam.run_id = scan.state.run_id;
   seam.scan_id = scan.state.scan_id;
+  seam.command_id = scan.state.start_command_id;
+  seam.request = scan.state.request;
+  seam.job = scan.state.job;
+  seam.part = scan.state.part;
   const ScanBalance balance = balance_of(scan);
   for (const profile_t& profile : scan.profiles) seam.points += profile.count;
   seam.stripes = balance.stripes;
   seam.stripes_empty = balance.empty;
+  seam.stripes_overlit = balance.overlit;
+  seam.stripes_unusable = balance.unusable;
   seam.stripes_without_pose = balance.without_pose;
   seam.images_lost = balance.images_lost;
   seam.profiles_lost = balance.profiles_lost;
   return seam;
 }
 
-seam_t refused(seam_t seam, const std::string& reason) {
+seam_t refused(seam_t seam, const ScanRefusal& refusal) {
   seam.verdict = seam_t::REFUSED;
-  seam.reason = reason;
+  seam.refusal = refusal.code;
+  seam.reason = refusal.words;
   return seam;
 }
 
-bool stripe_was_empty(const profile_t& profile) {
-  return profile.count == 0 && (profile.empty.starts_with("stripe empty: ") ||
-                                profile.empty == "no point within the working range");
+seam_t refused(seam_t seam, std::int16_t code) {
+  return refused(std::move(seam), refuse_scan(code));
+}
+
+// overlit: the code where most of the missing were too bright, otherwise: where not.
+ScanRefusal refuse_missing(const ScanBalance& balance, int missing, std::size_t all,
+                           std::int16_t overlit, std::int16_t otherwise) {
+  return refuse_scan(
+      2 * balance.overlit > missing ? overlit : otherwise,
+      fmt::format("{} of {} stripes are missing: {}", missing, all, balance.losses()));
+}
+
+int& counter_of(ScanBalance& balance, const profile_t& profile) {
+  if (profile.count > 0) return balance.stripes;
+  if (showed_nothing(profile)) return balance.empty;
+  switch (profile.why) {
+    case profile_t::TOO_MUCH_LIGHT:
+      return balance.overlit;
+    case profile_t::INCOMPLETE_IMAGE:
+      return balance.incomplete;
+    case profile_t::LASER_OFF:
+    case profile_t::UNREADABLE_IMAGE:
+    case profile_t::UNKNOWN_ENCODING:
+      return balance.unusable;
+    default:
+      return balance.without_pose;
+  }
 }
 
 int missing_of(const ScanCloud& cloud) {
@@ -59,7 +90,11 @@ bool two_missing_in_a_row(const ScanCloud& cloud) {
 
 std::string ScanBalance::losses() const {
   std::string text;
-  if (images_lost > 0) text += fmt::format("{} images lost at the camera; ", images_lost);
+  if (images_lost > 0)
+    text += fmt::format("{} images lost at the camera{}; ", images_lost,
+                        incomplete > 0 ? fmt::format(", {} of them incomplete", incomplete) : "");
+  if (overlit > 0) text += fmt::format("{} images with too much light; ", overlit);
+  if (unusable > 0) text += fmt::format("{} images without laser, or unreadable; ", unusable);
   if (profiles_lost > 0) text += fmt::format("{} stripes lost on their way; ", profiles_lost);
   if (without_pose > 0) text += fmt::format("{} stripes without position; ", without_pose);
   return text;
@@ -67,11 +102,9 @@ std::string ScanBalance::losses() const {
 
 ScanBalance balance_of(const CollectedScan& scan) {
   ScanBalance balance;
-  for (const profile_t& profile : scan.profiles)
-    ++(profile.count > 0           ? balance.stripes
-       : stripe_was_empty(profile) ? balance.empty
-                                   : balance.without_pose);
-  balance.images_lost = scan.state.lost;
+  for (const profile_t& profile : scan.profiles) ++counter_of(balance, profile);
+  // The camera's count has the incomplete ones in it, where it is known.
+  balance.images_lost = std::max(scan.state.lost, balance.incomplete);
   balance.profiles_lost = scan.profiles_lost;
   return balance;
 }
@@ -84,21 +117,23 @@ ScanCloud cloud_of(const CollectedScan& scan) {
   return builder.take_cloud();
 }
 
-std::string calibration_of(const CollectedScan& scan, std::string& error) {
-  std::string id;
-  for (const profile_t& profile : scan.profiles) {
-    if (profile.count > 0 && id.empty()) id = profile.calibration_id;
-    if ((profile.count > 0 && profile.calibration_id != id) ||
-        profile.empty.starts_with("calibration changed"))
-      error = "the calibration changed within the scan: scan again";
-  }
-  return id;
+std::string calibration_of(const CollectedScan& scan) {
+  for (const profile_t& profile : scan.profiles)
+    if (profile.count > 0 && !profile.calibration_id.empty()) return profile.calibration_id;
+  return "";
+}
+
+bool calibration_changed(const CollectedScan& scan) {
+  const std::string id = calibration_of(scan);
+  return std::any_of(scan.profiles.begin(), scan.profiles.end(), [&](const profile_t& profile) {
+    return profile.why == profile_t::CALIBRATION_CHANGED ||
+           (profile.count > 0 && profile.calibration_id != id);
+  });
 }
 
 StoredBackground::StoredBackground(const CollectedScan& scan, const SeamFindingSettings& settings)
     : scan_id_(scan.state.scan_id), cloud_(std::make_unique<ScanCloud>(cloud_of(scan))) {
-  std::string error;
-  calibration_id_ = calibration_of(scan, error);
+  calibration_id_ = calibration_of(scan);
   if (settings.background_rule == "neighbours")
     model_ = std::make_unique<NeighbourBackground>(*cloud_, settings.background_neighbours,
                                                    settings.background_distance_mm);
@@ -106,29 +141,23 @@ StoredBackground::StoredBackground(const CollectedScan& scan, const SeamFindingS
     model_ = std::make_unique<SurfaceBackground>(*cloud_, settings.background_distance_mm);
 }
 
-std::string background_error(const CollectedScan& scan) {
+ScanRefusal background_error(const CollectedScan& scan) {
   if (!scan.refusal.empty()) return scan.refusal;
   const ScanBalance balance = balance_of(scan);
-  if (balance.stripes == 0)
-    return "the background scan has no points: is the laser on, and the table within the working "
-           "range?";
-  std::string error;
-  calibration_of(scan, error);
-  if (!error.empty()) return error;
-  if (scan.state.end_reason == "camera lost")
-    return "the camera was lost in the background scan: scan again";
+  if (balance.stripes == 0) return refuse_scan(seam_t::BACKGROUND_EMPTY);
+  if (calibration_changed(scan)) return refuse_scan(seam_t::CALIBRATION_CHANGED);
+  if (scan.state.end_cause == scan_t::CAMERA_LOST) return refuse_scan(seam_t::CAMERA_LOST);
   const ScanCloud cloud = cloud_of(scan);
   const int missing = missing_of(cloud);
   if (20 * missing > static_cast<int>(cloud.stripes.size()) || two_missing_in_a_row(cloud))
-    return fmt::format("the background is not complete, {} of {} stripes are missing: {}scan again",
-                       missing, cloud.stripes.size(), balance.losses());
-  return "";
+    return refuse_missing(balance, missing, cloud.stripes.size(), seam_t::BACKGROUND_OVERLIT,
+                          seam_t::BACKGROUND_INCOMPLETE);
+  return {};
 }
 
-seam_t answer_background(const CollectedScan& scan, const std::string& error) {
+seam_t answer_background(const CollectedScan& scan, const ScanRefusal& error) {
   seam_t seam = empty_answer(scan);
-  std::string ignored;
-  seam.calibration_id = calibration_of(scan, ignored);
+  seam.calibration_id = calibration_of(scan);
   if (!error.empty()) return refused(seam, error);
   seam.verdict = seam_t::BACKGROUND_STORED;
   seam.background_points = seam.points;
@@ -153,30 +182,24 @@ seam_t answer_workpiece(const CollectedScan& scan, const PreparedScan& prepared,
                         const Calibration* calibration) {
   seam_t seam = empty_answer(scan);
   if (!scan.refusal.empty()) return refused(seam, scan.refusal);
-  std::string error;
-  seam.calibration_id = calibration_of(scan, error);
-  if (!error.empty()) return refused(seam, error);
-  if (scan.state.images == 0) return refused(seam, "the scan has no images");
+  seam.calibration_id = calibration_of(scan);
+  if (calibration_changed(scan)) return refused(seam, seam_t::CALIBRATION_CHANGED);
+  if (scan.state.images == 0) return refused(seam, seam_t::NO_IMAGES);
   const ScanBalance balance = balance_of(scan);
   const ScanCloud& cloud = prepared.cloud;
   const int missing = missing_of(cloud);
   if (scan.profiles.empty() ||
       missing > settings.lost_share_max * static_cast<double>(cloud.stripes.size()))
-    return refused(seam, fmt::format("too little of the scan is known, {} of {} stripes are "
-                                     "missing: {}scan again",
-                                     scan.profiles.empty() ? scan.state.images : missing,
-                                     std::max<std::size_t>(cloud.stripes.size(), scan.state.images),
-                                     balance.losses()));
-  if (balance.stripes == 0)
-    return refused(
-        seam, "no stripe in any image: is the laser on, and the work within the working range?");
-  if (!background)
-    return refused(
-        seam,
-        "no background: scan the empty cell under this calibration first (scan --kind background)");
+    return refused(seam,
+                   refuse_missing(balance, scan.profiles.empty() ? scan.state.images : missing,
+                                  std::max<std::size_t>(cloud.stripes.size(), scan.state.images),
+                                  seam_t::TOO_MUCH_LIGHT, seam_t::TOO_LITTLE_KNOWN));
+  if (balance.stripes == 0) return refused(seam, seam_t::NO_STRIPE);
+  if (!background) return refused(seam, seam_t::NO_BACKGROUND);
   seam.background_scan_id = background->scan_id();
   seam.remark = balance.losses();
-  if (scan.state.end_reason == "camera lost") seam.remark += "the camera was lost in the scan; ";
+  if (scan.state.end_cause == scan_t::CAMERA_LOST)
+    seam.remark += "the camera was lost in the scan; ";
   fill_in(seam, find_seam(cloud, prepared.segmentation, prepared.downsampled, settings,
                           static_cast<std::uint64_t>(scan.state.scan_id)));
   seam.background_points = static_cast<int>(prepared.segmentation.background.size());

@@ -18,9 +18,12 @@ namespace arcstart::seam_finding {
 // What became of the images of a scan.
 struct ScanBalance {
   int stripes = 0;        // profiles with points
-  int empty = 0;          // their stripe had no point
+  int empty = 0;          // a whole image showed nothing within the working range
+  int overlit = 0;        // too much light to tell a stripe
+  int unusable = 0;       // laser off, or not readable
   int without_pose = 0;   // no position or calibration for them
   int images_lost = 0;    // at the camera
+  int incomplete = 0;     // of those, begun and not whole
   int profiles_lost = 0;  // between the camera and here
 
   std::string losses() const;  // "2 images lost at the camera; ", empty for none
@@ -31,8 +34,10 @@ ScanBalance balance_of(const CollectedScan& scan);
 // would have shown.
 ScanCloud cloud_of(const CollectedScan& scan);
 
-// The calibration of all its points; empty where there are none. Sets error where it changed.
-std::string calibration_of(const CollectedScan& scan, std::string& error);
+// The calibration of its first points; empty where there are none.
+std::string calibration_of(const CollectedScan& scan);
+// Not all of it was carried to the base by that one.
+bool calibration_changed(const CollectedScan& scan);
 
 // A background scan, ready for comparison.
 class StoredBackground {
@@ -52,7 +57,7 @@ class StoredBackground {
 
 // Why a background scan is not complete, empty where it can serve. Single stripes may be missing,
 // for the surface is known from those beside them: no more than one in twenty, no two in a row.
-std::string background_error(const CollectedScan& scan);
+ScanRefusal background_error(const CollectedScan& scan);
 
 // A workpiece scan before the seam is sought: its cloud, thinned, and divided where there is a
 // background.
@@ -72,6 +77,6 @@ seam_t answer_workpiece(const CollectedScan& scan, const StoredBackground* backg
                         const SeamFindingSettings& settings,
                         const Calibration* calibration = nullptr);
 // The receipt for a background scan; error: why it cannot serve, empty where it is stored.
-seam_t answer_background(const CollectedScan& scan, const std::string& error);
+seam_t answer_background(const CollectedScan& scan, const ScanRefusal& error);
 
 }  // namespace arcstart::seam_finding

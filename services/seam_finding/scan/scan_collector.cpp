@@ -1,6 +1,7 @@
 #include "services/seam_finding/scan/scan_collector.hpp"
 
 #include <algorithm>
+#include <arcstart/seam_t.hpp>
 
 namespace arcstart::seam_finding {
 namespace {
@@ -11,18 +12,29 @@ constexpr std::size_t kMostProfiles = 20'000;  // of a scan: 20 minutes at 14 Hz
 constexpr std::size_t kMostPoints = 2'000'000;
 constexpr std::size_t kMostAnswered = 1000;
 
-// A scan's end as the next scan's state still tells it.
-scan_t previous_of(const scan_t& state) {
+// A scan's end as the next scan's state still tells it; known: what was heard of it before.
+scan_t previous_of(const scan_t& state, const std::optional<scan_t>& known) {
   scan_t previous{};
+  if (known) {
+    previous.command_id = known->command_id;
+    previous.start_command_id = known->start_command_id;
+    previous.request = known->request;
+    previous.job = known->job;
+    previous.part = known->part;
+  }
+  previous.clock_difference = known ? known->clock_difference : 0;
+  previous.clock_bound = known ? known->clock_bound : -1;
   previous.utime = state.utime;
   previous.run_id = state.run_id;
   previous.state = scan_t::ENDED;
   previous.scan_id = previous.begin_utime = state.previous_scan_id;
   previous.kind = state.previous_kind;
   previous.end_utime = state.previous_end_utime;
-  previous.first_seq = -1;  // not told
+  previous.end_cause = state.previous_end_cause;
+  previous.first_seq = state.previous_first_seq;
   previous.last_seq = state.previous_last_seq;
   previous.images = state.previous_images;
+  previous.lost = state.previous_lost;
   return previous;
 }
 
@@ -54,7 +66,7 @@ ScanCollector::OpenScan* ScanCollector::find_or_open(std::int64_t scan_id, std::
 void ScanCollector::refuse_older_runs(std::int64_t run_id) {
   for (OpenScan& scan : open_) {
     if (scan.run_id >= run_id || scan.has_ended()) continue;
-    scan.refusal = "sensor_capture restarted within the scan: scan again";
+    scan.refusal = refuse_scan(seam_t::SENSOR_CAPTURE_RESTARTED);
     scan.profiles.clear();
   }
 }
@@ -62,7 +74,7 @@ void ScanCollector::refuse_older_runs(std::int64_t run_id) {
 void ScanCollector::take_end_of_previous(const scan_t& state) {
   if (state.previous_scan_id == 0) return;
   if (OpenScan* scan = find(state.previous_scan_id); scan && !scan->has_ended())
-    scan->state = previous_of(state);
+    scan->state = previous_of(state, scan->state);
 }
 
 void ScanCollector::take(const scan_t& state) {
@@ -82,7 +94,7 @@ void ScanCollector::take(const profile_t& profile) {
   scan->newest_seq = std::max(scan->newest_seq, profile.seq);
   if (scan->profiles.try_emplace(profile.seq, profile).second) scan->points += profile.x.size();
   if (scan->profiles.size() <= kMostProfiles && scan->points <= kMostPoints) return;
-  scan->refusal = "the scan has more points than memory is kept for: scan less, or thin it out";
+  scan->refusal = refuse_scan(seam_t::TOO_MANY_POINTS);
   scan->profiles.clear();
 }
 
@@ -93,7 +105,7 @@ std::optional<CollectedScan> ScanCollector::next() {
   // One heard of earlier, of which no end was ever told, will not end any more.
   OpenScan& first = open_.front();
   if (!first.is_decided()) {
-    first.refusal = "the scan's end was never told: scan again";
+    first.refusal = refuse_scan(seam_t::END_NOT_REPORTED);
     first.profiles.clear();
   }
   CollectedScan scan = close(first);
@@ -127,9 +139,9 @@ bool ScanCollector::awaits_profiles() const {
                      [](const OpenScan& scan) { return scan.has_ended() && !scan.is_decided(); });
 }
 
-void ScanCollector::give_up(const std::string& reason) {
+void ScanCollector::give_up(const ScanRefusal& refusal) {
   for (OpenScan& scan : open_)
-    if (!scan.is_decided()) scan.refusal = reason;
+    if (!scan.is_decided()) scan.refusal = refusal;
 }
 
 void ScanCollector::skip(std::int64_t scan_id) {

@@ -7,8 +7,9 @@
 #include <deque>
 #include <map>
 #include <optional>
-#include <string>
 #include <vector>
+
+#include "services/seam_finding/scan/scan_refusal.hpp"
 
 namespace arcstart::seam_finding {
 
@@ -16,7 +17,7 @@ struct CollectedScan {
   scan_t state{};                   // as it ended; of a scan that never did, what is known of it
   std::vector<profile_t> profiles;  // in order of seq, each once
   int profiles_lost = 0;            // between the camera and here
-  std::string refusal;              // why it must not be evaluated, empty where it may be
+  ScanRefusal refusal;              // why it must not be evaluated, empty where it may be
 };
 
 // Takes <SENSOR>_SCAN and <SENSOR>_PROFILE in whatever order the two channels come. What it gives
@@ -34,7 +35,7 @@ class ScanCollector {
   bool awaits_profiles() const;                    // one of them has ended
 
   // Decides the scans that are open: their chain is dead.
-  void give_up(const std::string& reason);
+  void give_up(const ScanRefusal& refusal);
 
   // Was answered in an earlier life.
   void skip(std::int64_t scan_id);
@@ -48,7 +49,7 @@ class ScanCollector {
     std::map<std::int64_t, profile_t> profiles;  // by seq
     std::size_t points = 0;
     std::int64_t newest_seq = -1;  // of any profile of its run since it is known
-    std::string refusal;
+    ScanRefusal refusal;
 
     bool has_ended() const { return state && state->state == scan_t::ENDED; }
     bool is_decided() const;

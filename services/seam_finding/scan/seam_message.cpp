@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include "services/seam_finding/answer/wording.hpp"
+#include "services/seam_finding/scan/refusal_code.hpp"
 
 namespace arcstart::seam_finding {
 namespace {
@@ -42,6 +43,9 @@ seam_t empty_seam() {
     fill(*covariance, -1);
   seam.direction_deviation = seam.angle_deviation = seam.gap = seam.gap_deviation =
       seam.polyline_deviation = -1;
+  seam.thickness = seam.mismatch = seam.groove_angle = -1;
+  seam.stripes_checked = -1;
+  seam.explained_share = seam.worst_contradiction = -1;
   std::fill(std::begin(seam.normal_deviations), std::end(seam.normal_deviations), -1);
   seam.torch_quaternion[0] = 1;
   return seam;
@@ -55,10 +59,12 @@ void fill_in(seam_t& seam, const SeamResult& result) {
     alternative.score = other.score;
     copy(other.start, alternative.start);
     copy(other.end, alternative.end);
+    alternative.refusal = refusal_code(other.reason);
     alternative.reason = in_words(other.reason);
     seam.alternatives.push_back(alternative);
   }
   seam.alternative_count = static_cast<int>(seam.alternatives.size());
+  seam.refusal = refusal_code(result.reason);
   seam.reason = in_words(result.reason);
   if (result.verdict == SeamResult::Verdict::kRefused) seam.verdict = seam_t::REFUSED;
   if (result.verdict == SeamResult::Verdict::kAmbiguous) seam.verdict = seam_t::AMBIGUOUS;
@@ -75,6 +81,9 @@ void fill_in(seam_t& seam, const SeamResult& result) {
   seam.angle = result.angle;
   seam.gap = result.gap;
   seam.gap_deviation = result.gap_deviation;
+  seam.thickness = result.thickness;
+  seam.groove_angle = result.groove_angle;
+  // Thickness, mismatch and groove angle stay as in empty_seam() until a result has them.
   seam.start_visibility = visibility_of(result.start_visibility);
   seam.end_visibility = visibility_of(result.end_visibility);
   for (const Eigen::Vector3d& point : result.polyline.points)

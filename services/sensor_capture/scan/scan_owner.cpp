@@ -25,7 +25,7 @@ void ScanOwner::order(const ScanOrder& order, std::int64_t now, const std::strin
     if (!scanning()) return refuse(order.command_id, "no scan is running");
     if (ending_) return refuse(order.command_id, "the scan has ended already");
     stop_command_id_ = order.command_id;
-    return end(now, "stop");
+    return end(now, EndCause::kStop);
   }
   if (scanning())
     return refuse(
@@ -41,7 +41,7 @@ Membership ScanOwner::frame(const ExposedFrame& frame) {
   const std::optional<ExposedFrame> before = newest_;
   newest_ = frame;
   if (!scanning()) return {};
-  if (!ending_ && frame.end_utime > deadline_) end(deadline_, "longest duration", before);
+  if (!ending_ && frame.end_utime > deadline_) end(deadline_, EndCause::kLongestDuration, before);
   if (!scanning()) return {};  // it came to its end with this very frame
   Scan& scan = state_.scan;
   const bool within =
@@ -64,18 +64,18 @@ Membership ScanOwner::frame(const ExposedFrame& frame) {
 void ScanOwner::position(std::int64_t utime, const Eigen::Vector3d& position,
                          const Eigen::Quaterniond& rotation) {
   if (!settings_.end_when_still || !laser_wanted() || utime < state_.scan.scan_id) return;
-  if (standstill_.take(utime, position, rotation)) end(utime, "tool stood still");
+  if (standstill_.take(utime, position, rotation)) end(utime, EndCause::kStandstill);
 }
 
 void ScanOwner::camera_lost(std::int64_t now) {
   if (!scanning()) return;
-  if (!ending_) end(now, "camera lost");
+  if (!ending_) end(now, EndCause::kCameraLost);
   if (scanning()) finish();
 }
 
 void ScanOwner::tick(std::int64_t now) {
   if (!scanning()) return;
-  if (!ending_ && now >= deadline_) end(deadline_, "longest duration");
+  if (!ending_ && now >= deadline_) end(deadline_, EndCause::kLongestDuration);
   if (ending_ && now >= end_utime_ + longest_delay_us_) finish();
 }
 
@@ -103,6 +103,8 @@ void ScanOwner::begin(const ScanOrder& order, std::int64_t now) {
   state_.scan = Scan{};
   state_.scan.scan_id = begin;
   state_.scan.kind = order.kind;
+  state_.scan.start_command_id = order.command_id;
+  state_.scan.purpose = order.purpose;
   deadline_ = begin + to_us(std::min(order.longest_duration_s, settings_.longest_scan_s));
   ending_ = false;
   stop_command_id_ = 0;
@@ -111,12 +113,11 @@ void ScanOwner::begin(const ScanOrder& order, std::int64_t now) {
   ++revision_;
 }
 
-void ScanOwner::end(std::int64_t utime, const std::string& reason,
-                    const std::optional<ExposedFrame>& before) {
+void ScanOwner::end(std::int64_t utime, EndCause cause, const std::optional<ExposedFrame>& before) {
   ending_ = true;
   // Frames that were given to the scan lie within it.
   end_utime_ = std::max({utime, last_member_end_, state_.scan.scan_id});
-  end_reason_ = reason;
+  end_cause_ = cause;
   finish_if_complete(before);
 }
 
@@ -145,7 +146,7 @@ void ScanOwner::count_lost_at_end(const ExposedFrame& before, const ExposedFrame
 void ScanOwner::finish() {
   state_.phase = ScanState::Phase::kEnded;
   state_.scan.end_utime = end_utime_;
-  state_.scan.end_reason = end_reason_;
+  state_.scan.end_cause = end_cause_;
   if (stop_command_id_ != 0) state_.command_id = stop_command_id_;
   ending_ = false;
   ++revision_;

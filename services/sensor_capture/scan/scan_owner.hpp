@@ -11,11 +11,21 @@
 
 namespace arcstart::sensor_capture {
 
+// What whoever asks for a scan says of it: copied on, never looked at.
+struct ScanPurpose {
+  std::int64_t request = 0;
+  std::string job, part;
+};
+
+// Values as in scan_t.
+enum class EndCause : std::int8_t { kNone, kStop, kLongestDuration, kStandstill, kCameraLost };
+
 struct ScanOrder {
   std::int64_t command_id = 0;
   bool start = true;  // else stop
   std::int8_t kind = 0;
   double longest_duration_s = 0;
+  ScanPurpose purpose = {};
 };
 
 // A frame as far as scans are concerned. Exposure from begin to end; us, UTC.
@@ -38,7 +48,9 @@ struct Scan {
   std::int64_t first_seq = -1, last_seq = -1;
   std::int32_t images = 0;  // members, incomplete ones included
   std::int32_t lost = 0;    // incomplete, or missing between members
-  std::string end_reason;
+  EndCause end_cause = EndCause::kNone;
+  std::int64_t start_command_id = 0;
+  ScanPurpose purpose;
 };
 
 struct ScanState {
@@ -94,8 +106,7 @@ class ScanOwner {
   void refuse(std::int64_t command_id, std::string why);
   void begin(const ScanOrder& order, std::int64_t now);
   // before: the frame before the newest, where that has just come.
-  void end(std::int64_t utime, const std::string& reason,
-           const std::optional<ExposedFrame>& before = {});
+  void end(std::int64_t utime, EndCause cause, const std::optional<ExposedFrame>& before = {});
   void finish_if_complete(const std::optional<ExposedFrame>& before);
   void count_lost_at_end(const ExposedFrame& before, const ExposedFrame& after);
   void finish();
@@ -109,7 +120,7 @@ class ScanOwner {
   std::int64_t deadline_ = 0;  // of the running scan
   bool ending_ = false;        // its end is known, its last frame is not
   std::int64_t end_utime_ = 0;
-  std::string end_reason_;
+  EndCause end_cause_ = EndCause::kNone;
   std::int64_t stop_command_id_ = 0;  // that ended it, 0 for none
   std::int64_t last_member_end_ = 0;
   std::optional<ExposedFrame> newest_;

@@ -3,6 +3,7 @@
 #include <random>
 
 #include "common/bus/calibration_message.hpp"
+#include "common/bus/crc32c.hpp"
 #include "common/sensor_model.hpp"
 #include "common/time.hpp"
 #include "services/cell_simulator/base/random_stream.hpp"
@@ -52,6 +53,9 @@ void SimulatedScan::publish_calibration() {
   transform_to_arrays(sensor.T_tool_camera, message.camera_position, message.camera_quaternion);
   message.time_offset = -settings_.image_delay_s;
   message.camera_residual = message.laser_plane_residual = message.hand_eye_residual = -1;
+  message.camera_limit = message.laser_plane_limit = message.leave_one_out_limit =
+      message.predicted_limit = message.robot_position_limit = message.robot_orientation_limit = -1;
+  message.poses = -1;
   message.origin = "simulator's truth";
   bus_.publish("LASER0_CALIBRATION", message);
 }
@@ -82,7 +86,13 @@ void SimulatedScan::publish_scan(std::int8_t state, cell_simulator::SceneKind ki
   message.last_seq = images > 0 ? last_seq_ : -1;
   message.images = images;
   message.lost = frames_lost_;
-  if (state == scan_t::ENDED) message.end_reason = "tool stood still";
+  message.start_command_id = scan_id_;
+  message.clock_bound = -1;
+  message.previous_first_seq = message.previous_last_seq = -1;
+  if (state == scan_t::ENDED) {
+    message.end_cause = scan_t::STANDSTILL;
+    message.end_reason = "tool stood still";
+  }
   bus_.publish("LASER0_SCAN", message);
 }
 
@@ -98,6 +108,7 @@ void SimulatedScan::publish_pose(const RigidTransform& T_base_tool, std::int64_t
   seen.translation() += robot_error_.translation();
   seen.translation() += Eigen::Vector3d(noise(random), noise(random), noise(random));
   transform_to_arrays(seen, message.position, message.quaternion);
+  message.tool_frame = message.user_frame = -1;
   message.device_clock = utime;
   message.device_tick_us = 1;
   if (!lost(settings_.positions_lost_share)) bus_.publish("ROBOT0_POSE", message);
@@ -132,6 +143,7 @@ void SimulatedScan::publish_image(const cell_simulator::Scene& scene,
   renderer_.render(scene, T_base_tool, cell_simulator::Exposure{},
                    seed_ * 100'003 + static_cast<std::uint64_t>(message.seq), message.data.data(),
                    renderer_.whole_image());
+  message.crc32c = crc32c(message.data);
   bus_.publish("LASER0_IMAGE", message);
 }
 

@@ -7,6 +7,7 @@
 #include <opencv2/imgproc.hpp>
 #include <thread>
 
+#include "common/bus/crc32c.hpp"
 #include "common/time.hpp"
 #include "services/calibration/calibration_app.hpp"
 #include "services/calibration/files/calibration_set.hpp"
@@ -83,6 +84,7 @@ struct Cell {
     image.arrival_utime = image.utime;
     image.size = grey.cols * grey.rows;
     image.data.assign(grey.data, grey.data + image.size);
+    image.crc32c = crc32c(image.data);
     bus->publish("LASER0_IMAGE", image);
   }
 

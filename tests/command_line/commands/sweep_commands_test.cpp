@@ -55,7 +55,7 @@ stripe_t stripe_message(const SweptStripe& stripe, std::int64_t seq) {
   message.deviation.assign(message.u.size(), 0.05f);
   message.rank.assign(message.u.size(), stripe_t::CHOSEN);
   message.segment_end.assign(message.u.size(), stripe_t::CONTINUES);
-  if (message.count == 0) message.empty = "no stripe";
+  if (message.count == 0) message.why = stripe_t::NO_STRIPE;
   return message;
 }
 

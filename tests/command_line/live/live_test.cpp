@@ -87,6 +87,7 @@ struct Cell {
           if (command.action == scan_command_t::START && state.state != scan_t::SCANNING &&
               command.command_id != state.command_id) {
             state.state = scan_t::SCANNING;
+            state.end_cause = scan_t::NONE;
             state.command_id = command.command_id;
             state.scan_id = state.begin_utime = started = utime_now();
           }
@@ -96,6 +97,7 @@ struct Cell {
   void end() {
     state.state = scan_t::ENDED;
     state.end_utime = utime_now();
+    state.end_cause = scan_t::STOP;
     seam.scan_id = state.scan_id;
   }
   void step() {
@@ -137,6 +139,7 @@ TEST_CASE("arcstart scan runs a scan and prints its seam as JSON") {
 TEST_CASE("Ctrl-C stops the scan, and its answer is printed all the same") {
   Cell cell;
   cell.seam.verdict = seam_t::REFUSED;
+  cell.seam.refusal = seam_t::FEW_STRIPES_CROSS;
   cell.seam.reason = "too few stripes";
   Program program({"scan", "--kind", "workpiece"});
   while (cell.state.state != scan_t::SCANNING) cell.step();

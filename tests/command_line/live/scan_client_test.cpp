@@ -41,6 +41,7 @@ struct Cell {
     scan.command_id = command_id;
     scan.begin_utime = scan_id;
     scan.end_utime = state == scan_t::ENDED ? scan.utime : 0;
+    scan.end_cause = state == scan_t::ENDED ? scan_t::STOP : scan_t::NONE;
     bus->publish("LASER0_SCAN", scan);
   }
   void refuse(std::int64_t command_id, const std::string& why) {
@@ -55,6 +56,7 @@ struct Cell {
     seam_t seam{};
     seam.scan_id = scan_id;
     seam.verdict = verdict;
+    seam.refusal = verdict == seam_t::REFUSED ? seam_t::NO_WORKPIECE : 0;
     seam.reason = verdict == seam_t::FOUND ? "" : "for the test";
     seam.direction[0] = 1;
     bus->publish("LASER0_SEAM", seam);

@@ -120,6 +120,16 @@ TEST_CASE("states are shown, and nothing unprintable reaches the terminal") {
   CHECK(std::count(table.begin(), table.end(), '\n') == 4);
 }
 
+TEST_CASE("a sender of the version before is named as such") {
+  Traffic traffic;
+  std::vector<std::uint8_t> former(300, 0);
+  const std::uint64_t hash = 0x1b180dbd77ef4b7b;  // of robot_pose_t
+  for (std::size_t i = 0; i < 8; ++i) former[i] = static_cast<std::uint8_t>(hash >> (56 - 8 * i));
+  traffic.take("ROBOT0_POSE", former, 1);
+  CHECK_THAT(traffic.table(2, 2), Contains("robot_pose_t of the version before"));
+  CHECK(line(traffic.json(2, 2), "ROBOT0_POSE")["undecodable"] == 1);
+}
+
 TEST_CASE("a sender that invents channels takes no memory without end") {
   Traffic traffic;
   for (int i = 0; i < 2000; ++i) traffic.take(fmt::format("C{}", i), {}, 1);

@@ -244,6 +244,34 @@ TEST_CASE("messages of another type or version are counted and left out") {
   CHECK_THAT(recording.warnings()[0], Contains("LASER0_PROFILE: 3 messages cannot be decoded"));
 }
 
+TEST_CASE("a recording of the version before is refused in one line that says so") {
+  const Folder folder;
+  Recorded recorded;
+  recorded.images = recorded.stripes = recorded.profiles = true;
+  const Events events = record(recorded);
+  const std::pair<const char*, std::uint64_t> former[] = {
+      {"LASER0_CALIBRATION calibration_t", 0xcc0bc3c8dfcfe2cb},
+      {"LASER0_IMAGE image_t", 0x3c000d0d77f4ada4},
+      {"LASER0_PROFILE profile_t", 0x3878b0cb49009ba6},
+      {"ROBOT0_POSE robot_pose_t", 0x1b180dbd77ef4b7b},
+      {"LASER0_SCAN scan_t", 0x40b1b1f24f20b6dc},
+      {"LASER0_STRIPE stripe_t", 0x54c036e723b96b52},
+  };
+  for (const auto& [names, hash] : former) {
+    const std::string both = names, channel = both.substr(0, both.find(' ')),
+                      type = both.substr(both.find(' ') + 1);
+    INFO(both);
+    Events old = events;
+    for (auto& event : old)
+      if (event.channel == channel)
+        for (std::size_t i = 0; i < 8; ++i)
+          event.bytes[i] = static_cast<std::uint8_t>(hash >> (56 - 8 * i));
+    const std::string line = refusal({folder.save("old.lcm", old)});
+    CHECK_THAT(line, Contains("old.lcm: is of the version before") && Contains(channel) &&
+                         Contains("the former " + type) && Contains("record it again"));
+  }
+}
+
 TEST_CASE("why a scan is not answered is told from what was recorded") {
   const Folder folder;
   Recorded recorded;

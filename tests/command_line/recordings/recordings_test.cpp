@@ -73,8 +73,9 @@ TEST_CASE("every recording gives its expected result") {
     for (std::size_t i = 0; i < expected.size(); ++i) {
       const nlohmann::json seam = seam_to_json(result.seams[i].seam);
       for (const char* key :
-           {"scan_id", "verdict", "reason", "joint_type", "calibration_id", "background_scan_id",
-            "stripes", "stripes_empty", "stripes_without_pose", "images_lost", "profiles_lost"}) {
+           {"scan_id", "verdict", "refusal", "reason", "usable", "joint_type", "calibration_id",
+            "background_scan_id", "stripes", "stripes_empty", "stripes_overlit", "stripes_unusable",
+            "stripes_without_pose", "images_lost", "profiles_lost"}) {
         INFO(key);
         CHECK(seam.at(key) == expected[i].at(key));
       }

@@ -7,7 +7,10 @@
 #include <opencv2/imgcodecs.hpp>
 #include <random>
 
+#include "common/bus/crc32c.hpp"
+#include "services/extraction/empty_stripe.hpp"
 #include "services/extraction/extraction_settings.hpp"
+#include "services/reconstruction/empty_profile.hpp"
 #include "services/reconstruction/reconstruction_settings.hpp"
 #include "services/seam_finding/seam_finding_settings.hpp"
 #include "tests/command_line/support/closed_form_cell.hpp"
@@ -71,6 +74,8 @@ class Recorder {
     pose.utime = kBegin + t;
     pose.run_id = kRun;
     pose.seq = t / 20'000;
+    pose.source = robot_pose_t::HSPO;
+    pose.tool_frame = pose.user_frame = -1;
     const RigidTransform T_base_tool =
         T_base_camera(static_cast<double>(t) * 1e-6) * calibration_.T_tool_camera.inverse();
     transform_to_arrays(T_base_tool, pose.position, pose.quaternion);
@@ -101,12 +106,16 @@ class Recorder {
     scan_t state{};
     state.utime = kBegin + t;
     state.run_id = kRun;
-    state.first_seq = state.last_seq = state.previous_last_seq = -1;
+    state.first_seq = state.last_seq = -1;
+    state.previous_first_seq = state.previous_last_seq = -1;
+    state.clock_bound = -1;
     for (const std::int64_t scan : scans()) {
       if (state.utime < scan) break;
       state.previous_scan_id = state.scan_id;
       state.previous_kind = state.kind;
       state.previous_end_utime = state.end_utime;
+      state.previous_end_cause = state.end_cause;
+      state.previous_first_seq = state.first_seq;
       state.previous_last_seq = state.last_seq;
       state.previous_images = state.images;
       state.scan_id = state.begin_utime = scan;
@@ -115,7 +124,9 @@ class Recorder {
       const bool ended = state.utime >= scan + kScanDuration;
       state.state = ended ? scan_t::ENDED : scan_t::SCANNING;
       state.end_utime = ended ? scan + kScanDuration : 0;
+      state.end_cause = ended ? scan_t::STOP : scan_t::NONE;
       state.end_reason = ended ? "stop" : "";
+      state.start_command_id = state.command_id;
       state.images = 0;
       state.first_seq = state.last_seq = -1;
       image_t image{};
@@ -167,6 +178,7 @@ class Recorder {
     image.encoding = image_t::PNG;
     cv::imencode(".png", picture, image.data, {cv::IMWRITE_PNG_COMPRESSION, 1});
     image.size = static_cast<std::int32_t>(image.data.size());
+    image.crc32c = crc32c(image.data);
     put(image.utime, 40'000, recorded_.sensor + "_IMAGE", image);
   }
 
@@ -178,6 +190,7 @@ class Recorder {
     stripe.sensor_height = static_cast<std::int16_t>(calibration_.sensor_model.height);
     std::normal_distribution<double> noise(0, 0.05);  // px
     for (std::size_t i = 0; i < points.size(); ++i) {
+      const bool begins = i == 0 || points[i - 1].segment != points[i].segment;
       const bool ends = i + 1 == points.size() || points[i + 1].segment != points[i].segment;
       stripe.u.push_back(static_cast<float>(pixels[i].x()));
       stripe.v.push_back(static_cast<float>(pixels[i].y() + noise(random_)));
@@ -186,11 +199,14 @@ class Recorder {
       stripe.deviation.push_back(0.05F);
       stripe.segment.push_back(points[i].segment);
       stripe.rank.push_back(stripe_t::CHOSEN);
-      stripe.segment_end.push_back(ends ? stripe_t::EDGE : stripe_t::CONTINUES);
+      stripe.segment_end.push_back(begins || ends ? stripe_t::EDGE : stripe_t::CONTINUES);
     }
     stripe.count = static_cast<std::int32_t>(points.size());
     stripe.sigma = 2;
-    if (points.empty()) stripe.empty = "no stripe";
+    if (points.empty()) {
+      stripe.why = stripe_t::NO_STRIPE;
+      stripe.empty = to_words(EmptyStripe::kNoStripe);
+    }
     put(stripe.utime, 60'000, recorded_.sensor + "_STRIPE", stripe);
   }
 
@@ -211,14 +227,17 @@ class Recorder {
       profile.v.push_back(static_cast<float>(pixels[i].y()));
       profile.deviation.push_back(0.02F);
       profile.segment.push_back(points[i].segment);
-      profile.segment_end.push_back(begins || ends ? profile_t::SEGMENT_END : profile_t::INSIDE);
+      profile.segment_end.push_back(begins || ends ? profile_t::EDGE : profile_t::CONTINUES);
     }
     profile.count = static_cast<std::int32_t>(profile.x.size());
     transform_to_arrays(T * calibration_.T_tool_camera.inverse(), profile.tool_position,
                         profile.tool_quaternion);
     Eigen::Map<Eigen::Vector3d>{profile.camera_centre} = T.translation();
     profile.calibration_id = calibration_.id;
-    if (profile.count == 0) profile.empty = "stripe empty: no stripe";
+    if (profile.count == 0) {
+      profile.why = profile_t::NO_STRIPE;
+      profile.empty = to_words(EmptyProfile::kNoStripe, to_words(EmptyStripe::kNoStripe));
+    }
     put(profile.utime, 80'000, recorded_.sensor + "_PROFILE", profile);
   }
 

@@ -169,7 +169,7 @@ TEST_CASE("profiles without end, and numbers of damage, stay within bounds while
   for (auto* list : {&crowd.x, &crowd.y, &crowd.z, &crowd.u, &crowd.v, &crowd.deviation})
     list->assign(full, 5);  // equal points all
   crowd.segment.assign(full, 0);
-  crowd.segment_end.assign(full, profile_t::INSIDE);
+  crowd.segment_end.assign(full, profile_t::CONTINUES);
   RunningScan running;
   ScanCollector collector;
   for (int k = 0; k < 40; ++k) {
@@ -203,7 +203,8 @@ TEST_CASE("a million equal points, and a background of another cell, while they 
          {&profile.x, &profile.y, &profile.z, &profile.u, &profile.v, &profile.deviation})
       list->assign(kEach, 20);
     profile.segment.assign(kEach, 0);
-    profile.segment_end.assign(kEach, profile_t::INSIDE);
+    profile.segment_end.assign(kEach, profile_t::CONTINUES);
+    profile.why = profile_t::NONE;
     profile.empty.clear();
   }
   RunningScan running;

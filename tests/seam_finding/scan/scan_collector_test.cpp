@@ -1,5 +1,6 @@
 #include "services/seam_finding/scan/scan_collector.hpp"
 
+#include <arcstart/seam_t.hpp>
 #include <catch2/catch.hpp>
 #include <random>
 
@@ -156,7 +157,8 @@ TEST_CASE("a restarted sensor_capture ends the scan with the same refusal, in an
   for (int seed = 0; seed < 200; ++seed) {
     const auto scans = deliver(traffic, seed, seed == 0 ? 1 : seed == 1 ? -1 : 0);
     REQUIRE(scans.size() == 2);
-    CHECK_THAT(scans[0].refusal, Catch::Contains("sensor_capture restarted"));
+    CHECK_THAT(scans[0].refusal.words, Catch::Contains("sensor_capture restarted"));
+    CHECK(scans[0].refusal.code == seam_t::SENSOR_CAPTURE_RESTARTED);
     CHECK(scans[0].profiles.empty());  // how many had come hangs on the order
     CHECK(scans[0].profiles_lost == 0);
     CHECK(scans[1].refusal.empty());
@@ -187,13 +189,23 @@ TEST_CASE("a lost end is told by the next scan") {
   second.scanning.previous_scan_id = first.scanning.scan_id;
   second.scanning.previous_kind = first.ended.kind;
   second.scanning.previous_end_utime = first.ended.end_utime;
+  second.scanning.previous_end_cause = scan_t::CAMERA_LOST;
+  second.scanning.previous_first_seq = first.ended.first_seq;
   second.scanning.previous_last_seq = first.ended.last_seq;
+  second.scanning.previous_lost = 2;
   second.scanning.previous_images = first.ended.images;
   collector.take(second.scanning);
   const auto scan = collector.next();
   REQUIRE(scan);
   CHECK(scan->state.scan_id == first.scanning.scan_id);
   CHECK(scan->state.end_utime == first.ended.end_utime);
+  CHECK(scan->state.end_cause == scan_t::CAMERA_LOST);
+  CHECK(scan->state.first_seq == first.ended.first_seq);
+  CHECK(scan->state.lost == 2);
+  CHECK(scan->state.request == 7);  // as the scan itself had said
+  CHECK(scan->state.job == "job");
+  CHECK(scan->state.part == "part");
+  CHECK(scan->state.start_command_id == first.scanning.start_command_id);
   CHECK(scan->profiles.size() == 7);
 }
 
@@ -225,10 +237,11 @@ TEST_CASE("a dead chain is given up only on demand") {
   collector.take(messages.profiles.front());
   collector.take(messages.ended);
   CHECK_FALSE(collector.next());
-  collector.give_up("chain dead");
+  collector.give_up(refuse_scan(seam_t::NO_PROFILES, "5"));
   const auto scan = collector.next();
   REQUIRE(scan);
-  CHECK(scan->refusal == "chain dead");
+  CHECK(scan->refusal.code == seam_t::NO_PROFILES);
+  CHECK_THAT(scan->refusal.words, Catch::Contains("no profile for 5 s"));
   for (const auto& profile : messages.profiles) collector.take(profile);
   CHECK_FALSE(collector.next());
 }
@@ -244,7 +257,7 @@ TEST_CASE("a scan of which no end is ever told does not keep the next from its a
   collector.take(next.ended);
   const auto scans = all_of(collector);
   REQUIRE(scans.size() == 2);
-  CHECK_THAT(scans[0].refusal, Catch::Contains("end was never told"));
+  CHECK_THAT(scans[0].refusal.words, Catch::Contains("end was never told"));
   CHECK(scans[1].refusal.empty());
 }
 
@@ -260,6 +273,7 @@ TEST_CASE("ids without end do not fill the memory") {
   ScanCollector other;
   profile.count = 100000;
   profile.x.resize(100000);
+  profile.why = profile_t::NONE;
   profile.empty.clear();
   for (int i = 0; i < 30; ++i) {
     ++profile.seq;
@@ -267,5 +281,6 @@ TEST_CASE("ids without end do not fill the memory") {
   }
   const auto scan = other.next();
   REQUIRE(scan);
-  CHECK_THAT(scan->refusal, Catch::Contains("more points"));
+  CHECK(scan->refusal.code == seam_t::TOO_MANY_POINTS);
+  CHECK_THAT(scan->refusal.words, Catch::Contains("more points"));
 }

@@ -3,6 +3,7 @@
 
 #include <arcstart/profile_t.hpp>
 #include <arcstart/scan_t.hpp>
+#include <string>
 #include <vector>
 
 #include "services/seam_finding/cloud/sampling.hpp"
@@ -20,6 +21,8 @@ struct ScanIdentity {
   std::int8_t kind = scan_t::WORKPIECE;
   std::int64_t first_seq = 500;
   std::string calibration_id = "calibration-1";
+  std::int64_t request = 7;
+  std::string job = "job", part = "part";
 };
 ScanMessages to_messages(const ScanCloud& cloud, const ScanIdentity& identity);
 

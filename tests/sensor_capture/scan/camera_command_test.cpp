@@ -79,3 +79,28 @@ TEST_CASE("sensor_capture: settings that the camera cannot do end the command") 
   CHECK(cell.images.empty());
   CHECK(cell.script.requests.back().second == CameraSettings{kScriptedExposure, 0, false});
 }
+
+TEST_CASE(
+    "sensor_capture: a region or a frame rate is refused, and told, not taken for the whole") {
+  ScriptedCell cell;
+  cell.find_camera();
+  camera_command_t command{};
+  command.utime = utime_now();
+  command.command_id = 33;
+  command.images = 1;
+  if (GENERATE(true, false))
+    command.width = 100, command.height = 50;
+  else
+    command.frame_rate = 20;
+  const auto requests = cell.script.requests.size();
+  cell.bus->publish("LASER0_CAMERA_COMMAND", command);
+  while (cell.bus->handle(std::chrono::milliseconds(0))) {
+  }
+  cell.step();
+  for (int i = 0; i < 4; ++i) cell.expose();
+  CHECK(cell.images.empty());
+  CHECK(cell.script.requests.size() == requests);
+  CHECK(cell.app->health().state == service_status_t::DEGRADED);
+  CHECK_THAT(cell.app->health().last_error,
+             Catch::Contains("camera command 33 is refused") && Catch::Contains("cell.yaml"));
+}

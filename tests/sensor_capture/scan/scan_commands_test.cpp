@@ -67,7 +67,7 @@ TEST_CASE("scan: a lost camera ends it at once") {
   if (stopping) cell.stop(2, 320);
   cell.owner.camera_lost(IdealCell::at(900));
   CHECK(cell.state().phase == Phase::kEnded);
-  CHECK(cell.scan().end_reason == (stopping ? "stop" : "camera lost"));
+  CHECK(cell.scan().end_cause == (stopping ? EndCause::kStop : EndCause::kCameraLost));
   CHECK(cell.scan().end_utime == IdealCell::at(stopping ? 320 : 900));
   CHECK(cell.scan().last_seq == 2);
   CHECK(cell.frame(20).scan_id == 0);
@@ -143,7 +143,7 @@ TEST_CASE("scan: ends when the tool has moved and then stood") {
   stand(20, stopped + 520);
   CHECK_FALSE(cell.owner.laser_wanted());
   cell.frame(100);
-  CHECK(cell.scan().end_reason == "tool stood still");
+  CHECK(cell.scan().end_cause == EndCause::kStandstill);
   CHECK(cell.scan().end_utime == IdealCell::at(stopped + 500));
 }
 

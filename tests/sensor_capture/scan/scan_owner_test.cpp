@@ -47,7 +47,7 @@ TEST_CASE("scan: from start to stop, frames wholly within and lit") {
   CHECK(cell.indices == std::vector<std::int32_t>{0, 1, 2, 3});
   CHECK(cell.state().command_id == 12);
   CHECK(cell.scan().end_utime == IdealCell::at(1001));
-  CHECK(cell.scan().end_reason == "stop");
+  CHECK(cell.scan().end_cause == EndCause::kStop);
   CHECK(cell.scan().last_seq == 9);
   CHECK(cell.scan().lost == 0);
 }
@@ -70,7 +70,7 @@ TEST_CASE("scan: ended is not told while its last frame is on its way") {
   CHECK(cell.state().phase == Phase::kScanning);
   CHECK_FALSE(cell.owner.laser_wanted());
   CHECK(cell.scan().end_utime == 0);
-  CHECK(cell.scan().end_reason == "");
+  CHECK(cell.scan().end_cause == EndCause::kNone);
   CHECK(cell.state().command_id == 1);
   const auto told = cell.owner.revision();
 
@@ -113,7 +113,7 @@ TEST_CASE("scan: ended is not told while its last frame is on its way") {
   CHECK(cell.state().phase == Phase::kEnded);
   CHECK(cell.owner.revision() > told);
   CHECK(cell.scan().end_utime == IdealCell::at(310));
-  CHECK(cell.scan().end_reason == "stop");
+  CHECK(cell.scan().end_cause == EndCause::kStop);
   CHECK(cell.state().command_id == 2);
 }
 
@@ -169,7 +169,7 @@ TEST_CASE("scan: the longest duration ends it, told by a tick or by the frames")
   CHECK(cell.state().phase == Phase::kEnded);
   CHECK(cell.members == std::vector<std::int64_t>{1, 2, 3, 4, 5});
   CHECK(cell.scan().end_utime == IdealCell::at(550));
-  CHECK(cell.scan().end_reason == "longest duration");
+  CHECK(cell.scan().end_cause == EndCause::kLongestDuration);
   CHECK(cell.state().command_id == 1);
   cell.stop(2, 700);
   CHECK(cell.state().refused_command_id == 2);
@@ -181,12 +181,32 @@ TEST_CASE("scan: a stop after the longest duration has passed does not prolong i
   cell.start(1, 50, 0.5);
   cell.frame(1);
   cell.stop(2, 900);
-  CHECK(cell.scan().end_reason == "");
+  CHECK(cell.scan().end_cause == EndCause::kNone);
   cell.frame(9);
-  CHECK(cell.scan().end_reason == "longest duration");
+  CHECK(cell.scan().end_cause == EndCause::kLongestDuration);
   CHECK(cell.scan().end_utime == IdealCell::at(550));
   CHECK(cell.state().refused_command_id == 2);
   CHECK(cell.scan().lost == 4);  // frames 2 to 5
+}
+
+TEST_CASE("scan: what whoever asked said of it stays with it, and with no other") {
+  IdealCell cell;
+  cell.owner.order({1, true, 1, 60, {42, "job", "part"}}, IdealCell::at(0), "");
+  cell.frame(1);
+  cell.stop(2, 150);
+  cell.frame(2);
+  REQUIRE(cell.state().phase == Phase::kEnded);
+  CHECK(cell.state().command_id == 2);
+  CHECK(cell.scan().start_command_id == 1);
+  CHECK(cell.scan().purpose.request == 42);
+  CHECK(cell.scan().purpose.job == "job");
+  CHECK(cell.scan().purpose.part == "part");
+  cell.start(3, 300);
+  CHECK(cell.scan().start_command_id == 3);
+  CHECK(cell.scan().purpose.request == 0);
+  CHECK(cell.scan().purpose.job == "");
+  CHECK(cell.state().previous.first_seq == 1);
+  CHECK(cell.state().previous.end_cause == EndCause::kStop);
 }
 
 TEST_CASE("scan: the setting's limit holds whatever the command says") {

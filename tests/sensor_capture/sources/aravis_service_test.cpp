@@ -67,7 +67,7 @@ TEST_CASE("aravis: a scan of the whole service is lit, dark before and after") {
   CHECK(service.scan.images == static_cast<std::int32_t>(count));
   CHECK(service.scan.last_seq == service.images.back().seq);
   CHECK(service.scan.first_seq == service.images.front().seq);
-  CHECK(service.scan.end_reason == "stop");
+  CHECK(service.scan.end_cause == scan_t::STOP);
   for (std::size_t i = 0; i < count; ++i) {
     const image_t& image = service.images[i];
     CHECK(image.scan_index == static_cast<std::int32_t>(i));
@@ -92,7 +92,7 @@ TEST_CASE("aravis: a camera that vanishes in a scan ends it") {
   service.run_until([&] { return service.images.size() >= 3; });
   camera.reset();
   service.run_until([&] { return service.scan.state == scan_t::ENDED; });
-  CHECK(service.scan.end_reason == "camera lost");
+  CHECK(service.scan.end_cause == scan_t::CAMERA_LOST);
   CHECK(service.scan.last_seq == service.images.back().seq);
   CHECK(service.app->health().state == service_status_t::FAULT);
   camera = std::make_unique<FakeCamera>();

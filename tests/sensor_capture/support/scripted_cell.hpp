@@ -114,6 +114,9 @@ struct ScriptedCell {
     command.action = action;
     command.kind = scan_t::WORKPIECE;
     command.longest_duration = longest_s;
+    command.request = 42;
+    command.job = "job " + std::to_string(id);
+    command.part = "part " + std::to_string(id);
     bus->publish("LASER0_SCAN_COMMAND", command);
     while (bus->handle(std::chrono::milliseconds(0))) {
     }

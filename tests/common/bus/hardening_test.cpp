@@ -119,28 +119,73 @@ TEST_CASE("types have the fingerprints that recordings rely on") {
                                     VALUE(calibration_command_t, DISCARD) +
                                     VALUE(calibration_command_t, SOLVE));
   line(calibration_pose_t{}, "");
-  line(calibration_t{}, VALUE(calibration_t, PARAMETERS));
+  line(calibration_t{}, VALUE(calibration_t, PARAMETERS) + VALUE(calibration_t, NOT_JUDGED) +
+                            VALUE(calibration_t, PASSED) + VALUE(calibration_t, FAILED));
   line(camera_command_t{}, VALUE(camera_command_t, LASER_OFF) + VALUE(camera_command_t, LASER_ON) +
                                VALUE(camera_command_t, LASER_AS_CONFIGURED));
   line(cell_command_t{}, VALUE(cell_command_t, KEEP) + VALUE(cell_command_t, BACKGROUND) +
                              VALUE(cell_command_t, WORKPIECE) + VALUE(cell_command_t, PLATE));
-  line(image_t{}, VALUE(image_t, MONO8) + VALUE(image_t, PNG));
-  line(profile_t{}, VALUE(profile_t, INSIDE) + VALUE(profile_t, SEGMENT_END));
-  line(robot_pose_t{}, "");
+  line(image_t{}, VALUE(image_t, MONO8) + VALUE(image_t, PNG) + VALUE(image_t, MONO16) +
+                      VALUE(image_t, BAYER_RG8) + VALUE(image_t, BAYER_GR8) +
+                      VALUE(image_t, BAYER_GB8) + VALUE(image_t, BAYER_BG8));
+  line(profile_t{}, VALUE(profile_t, CONTINUES) + VALUE(profile_t, EDGE) + VALUE(profile_t, GAP) +
+                        VALUE(profile_t, BORDER) + VALUE(profile_t, SATURATION) +
+                        VALUE(profile_t, NONE) + VALUE(profile_t, NO_STRIPE) +
+                        VALUE(profile_t, TOO_MUCH_LIGHT) + VALUE(profile_t, INCOMPLETE_IMAGE) +
+                        VALUE(profile_t, LASER_OFF) + VALUE(profile_t, UNREADABLE_IMAGE) +
+                        VALUE(profile_t, UNKNOWN_ENCODING) + VALUE(profile_t, NONE_CHOSEN) +
+                        VALUE(profile_t, NO_POSITION) + VALUE(profile_t, NO_CALIBRATION) +
+                        VALUE(profile_t, CALIBRATION_CHANGED) + VALUE(profile_t, OTHER_SENSOR) +
+                        VALUE(profile_t, OUT_OF_RANGE) + VALUE(profile_t, WRONG_TIME));
+  line(robot_pose_t{}, VALUE(robot_pose_t, UNKNOWN) + VALUE(robot_pose_t, HSPO) +
+                           VALUE(robot_pose_t, J519) + VALUE(robot_pose_t, RTDE));
   line(scan_command_t{}, VALUE(scan_command_t, START) + VALUE(scan_command_t, STOP));
   line(scan_t{}, VALUE(scan_t, IDLE) + VALUE(scan_t, SCANNING) + VALUE(scan_t, ENDED) +
-                     VALUE(scan_t, BACKGROUND) + VALUE(scan_t, WORKPIECE));
+                     VALUE(scan_t, BACKGROUND) + VALUE(scan_t, WORKPIECE) + VALUE(scan_t, NONE) +
+                     VALUE(scan_t, STOP) + VALUE(scan_t, LONGEST_DURATION) +
+                     VALUE(scan_t, STANDSTILL) + VALUE(scan_t, CAMERA_LOST));
   line(seam_alternative_t{}, "");
   line(seam_station_t{}, "");
-  line(seam_t{}, VALUE(seam_t, FOUND) + VALUE(seam_t, AMBIGUOUS) + VALUE(seam_t, REFUSED) +
-                     VALUE(seam_t, BACKGROUND_STORED) + VALUE(seam_t, NOT_DETERMINED) +
-                     VALUE(seam_t, SEEN) + VALUE(seam_t, HIDDEN) + VALUE(seam_t, OUTSIDE));
+  line(seam_t{},
+       VALUE(seam_t, FOUND) + VALUE(seam_t, AMBIGUOUS) + VALUE(seam_t, REFUSED) +
+           VALUE(seam_t, BACKGROUND_STORED) + VALUE(seam_t, NOT_DETERMINED) + VALUE(seam_t, SEEN) +
+           VALUE(seam_t, HIDDEN) + VALUE(seam_t, OUTSIDE) + VALUE(seam_t, SCAN_AGAIN) +
+           VALUE(seam_t, TOO_LITTLE_KNOWN) + VALUE(seam_t, SENSOR_CAPTURE_RESTARTED) +
+           VALUE(seam_t, END_NOT_REPORTED) + VALUE(seam_t, NO_IMAGES) +
+           VALUE(seam_t, CALIBRATION_CHANGED) + VALUE(seam_t, BACKGROUND_INCOMPLETE) +
+           VALUE(seam_t, POINTS_COINCIDE) + VALUE(seam_t, TOOL_STOOD_STILL) +
+           VALUE(seam_t, START_BEFORE_SCAN) + VALUE(seam_t, START_MISSING) +
+           VALUE(seam_t, FEW_STRIPES_AT_SEAM) + VALUE(seam_t, FEW_STRIPES_CROSS) +
+           VALUE(seam_t, SEEN_TOO_SHORT) + VALUE(seam_t, SHOWS_TOO_RARELY) + VALUE(seam_t, CLEAN) +
+           VALUE(seam_t, NO_SEAM) + VALUE(seam_t, TOO_MUCH_LIGHT) +
+           VALUE(seam_t, BACKGROUND_OVERLIT) + VALUE(seam_t, NO_STRIPE) +
+           VALUE(seam_t, BACKGROUND_EMPTY) + VALUE(seam_t, NO_WORKPIECE) +
+           VALUE(seam_t, ONLY_BACKGROUND) + VALUE(seam_t, ONE_PLANE) + VALUE(seam_t, PLATES_APART) +
+           VALUE(seam_t, EDGE_OF_ONE_PLATE) + VALUE(seam_t, CLUTTERED) +
+           VALUE(seam_t, EDGES_NOT_STRAIGHT) + VALUE(seam_t, UPPER_PLATE_NARROW) +
+           VALUE(seam_t, PLATE_TOO_NARROW) + VALUE(seam_t, PLATES_NOT_PARALLEL) +
+           VALUE(seam_t, SURFACE_TOO_ROUGH) + VALUE(seam_t, SEVERAL_SEAMS) + VALUE(seam_t, CALL) +
+           VALUE(seam_t, NO_BACKGROUND) + VALUE(seam_t, TOO_MANY_POINTS) +
+           VALUE(seam_t, NO_PLANES_MEET) + VALUE(seam_t, WRONG_ANGLE) +
+           VALUE(seam_t, WRONG_ANGLE_AT_SEAM) + VALUE(seam_t, NOT_CONVEX) +
+           VALUE(seam_t, NOT_CONCAVE) + VALUE(seam_t, LAP_NOT_WANTED) + VALUE(seam_t, WRONG_STEP) +
+           VALUE(seam_t, GROOVE_NOT_WANTED) + VALUE(seam_t, BUTT_NOT_WANTED) +
+           VALUE(seam_t, WRONG_GROOVE_ANGLE) + VALUE(seam_t, GAP_TOO_WIDE) + VALUE(seam_t, STOP) +
+           VALUE(seam_t, CAMERA_LOST) + VALUE(seam_t, NO_PROFILES) +
+           VALUE(seam_t, SENSOR_CAPTURE_SILENT) + VALUE(seam_t, USABLE) +
+           VALUE(seam_t, START_NOT_SEEN) + VALUE(seam_t, START_UNSURE) +
+           VALUE(seam_t, END_NOT_SEEN) + VALUE(seam_t, END_UNSURE) + VALUE(seam_t, CONTRADICTED) +
+           VALUE(seam_t, CALIBRATION_FAILED) + VALUE(seam_t, CLOCKS_APART));
   line(service_status_t{}, VALUE(service_status_t, STARTING) + VALUE(service_status_t, RUNNING) +
                                VALUE(service_status_t, DEGRADED) + VALUE(service_status_t, FAULT) +
                                VALUE(service_status_t, STOPPING));
   line(stripe_t{}, VALUE(stripe_t, CONTINUES) + VALUE(stripe_t, EDGE) + VALUE(stripe_t, GAP) +
                        VALUE(stripe_t, BORDER) + VALUE(stripe_t, SATURATION) +
-                       VALUE(stripe_t, CHOSEN) + VALUE(stripe_t, SECOND_CANDIDATE));
+                       VALUE(stripe_t, CHOSEN) + VALUE(stripe_t, SECOND_CANDIDATE) +
+                       VALUE(stripe_t, NONE) + VALUE(stripe_t, NO_STRIPE) +
+                       VALUE(stripe_t, TOO_MUCH_LIGHT) + VALUE(stripe_t, INCOMPLETE_IMAGE) +
+                       VALUE(stripe_t, LASER_OFF) + VALUE(stripe_t, UNREADABLE_IMAGE) +
+                       VALUE(stripe_t, UNKNOWN_ENCODING));
   line(truth_t{}, "");
   std::ifstream file(ARCSTART_FINGERPRINTS);
   std::ostringstream held;

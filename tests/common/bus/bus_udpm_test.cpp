@@ -6,6 +6,7 @@
 #include <catch2/catch.hpp>
 
 #include "common/bus/bus.hpp"
+#include "common/bus/crc32c.hpp"
 #include "common/time.hpp"
 
 using namespace arcstart;
@@ -22,6 +23,7 @@ image_t image(std::int64_t seq) {
   message.height = message.sensor_height = 1200;
   message.size = 1600 * 1200;
   message.data.assign(static_cast<std::size_t>(message.size), static_cast<std::uint8_t>(seq));
+  message.crc32c = crc32c(message.data);
   return message;
 }
 
@@ -104,6 +106,7 @@ TEST_CASE("hostile datagrams are counted and survived") {
   small.width = small.height = 2;
   small.size = 4;
   small.data.assign(4, 9);
+  small.crc32c = crc32c(small.data);
   const auto datagram = [&](const std::vector<std::uint8_t>& body) {
     std::vector<std::uint8_t> bytes = {'L', 'C', '0', '2', 0, 0, 0, 1};
     for (const char character : std::string("LASER0_IMAGE"))
