@@ -214,10 +214,9 @@ ScanAgreement agreement_on_ball(const SweepRecord& record, const Calibration& ca
   if (result.turn_deg >= kTurn)
     tell_what_shows(shown, result);
   else
-    result.warnings.push_back(
-        std::string("the tool is turned alike in all scans: a hand-eye that is shifted does not "
-                    "show; ") +
-        kSecondSide);
+    result.warnings.push_back(fmt::format(
+        "the tool is turned alike in all scans: a hand-eye that is shifted does not show; {}",
+        kSecondSide));
   result.error_mm = std::max({result.place_mm, result.radius_mm, result.shape_mm});
   return result;
 }
