@@ -1,6 +1,6 @@
 #include "common/message_checks.hpp"
 
-#include <fmt/format.h>
+#include <fmt/core.h>
 
 #include <cmath>
 

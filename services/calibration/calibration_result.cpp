@@ -1,6 +1,6 @@
 #include "services/calibration/calibration_result.hpp"
 
-#include <fmt/format.h>
+#include <fmt/core.h>
 
 #include <cmath>
 #include <numbers>

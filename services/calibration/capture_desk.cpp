@@ -1,6 +1,6 @@
 #include "services/calibration/capture_desk.hpp"
 
-#include <fmt/format.h>
+#include <fmt/core.h>
 #include <spdlog/spdlog.h>
 
 #include <algorithm>

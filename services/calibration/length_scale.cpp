@@ -1,6 +1,6 @@
 #include "services/calibration/length_scale.hpp"
 
-#include <fmt/format.h>
+#include <fmt/core.h>
 
 #include <Eigen/Dense>
 #include <cmath>

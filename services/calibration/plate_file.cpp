@@ -1,6 +1,6 @@
 #include "services/calibration/plate_file.hpp"
 
-#include <fmt/format.h>
+#include <fmt/core.h>
 #include <yaml-cpp/yaml.h>
 
 #include <array>

@@ -1,6 +1,6 @@
 #include "services/calibration/pose_spread.hpp"
 
-#include <fmt/format.h>
+#include <fmt/core.h>
 
 #include <Eigen/SVD>
 #include <algorithm>

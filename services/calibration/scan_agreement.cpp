@@ -1,6 +1,6 @@
 #include "services/calibration/scan_agreement.hpp"
 
-#include <fmt/format.h>
+#include <fmt/core.h>
 
 #include <Eigen/Eigenvalues>
 #include <algorithm>

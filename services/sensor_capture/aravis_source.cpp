@@ -1,6 +1,6 @@
 #include "services/sensor_capture/aravis_source.hpp"
 
-#include <fmt/format.h>
+#include <fmt/core.h>
 
 #include <algorithm>
 #include <memory>

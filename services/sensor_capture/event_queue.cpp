@@ -1,6 +1,6 @@
 #include "services/sensor_capture/event_queue.hpp"
 
-#include <fmt/format.h>
+#include <fmt/core.h>
 
 namespace arcstart {
 

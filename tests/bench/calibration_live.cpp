@@ -1,6 +1,6 @@
 #include "tests/bench/calibration_live.hpp"
 
-#include <fmt/format.h>
+#include <fmt/core.h>
 
 #include <cmath>
 

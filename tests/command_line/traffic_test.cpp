@@ -1,10 +1,11 @@
 #include "services/command_line/traffic.hpp"
 
-#include <fmt/format.h>
+#include <fmt/core.h>
 
 #include <algorithm>
 #include <catch2/catch.hpp>
 #include <limits>
+#include <nlohmann/json.hpp>
 
 using namespace arcstart;
 using Catch::Matchers::Contains;
