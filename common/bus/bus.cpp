@@ -1,6 +1,6 @@
 #include "common/bus/bus.hpp"
 
-#include <fmt/format.h>
+#include <fmt/core.h>
 #include <sys/socket.h>
 #include <unistd.h>
 

@@ -1,6 +1,6 @@
 #include "common/bus/message_checks.hpp"
 
-#include <fmt/format.h>
+#include <fmt/core.h>
 
 #include <cmath>
 #include <string_view>

@@ -1,6 +1,6 @@
 #include "services/extraction/extraction_app.hpp"
 
-#include <fmt/format.h>
+#include <fmt/core.h>
 #include <spdlog/spdlog.h>
 
 #include "services/extraction/files/image_decoding.hpp"

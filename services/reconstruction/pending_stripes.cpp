@@ -1,6 +1,6 @@
 #include "services/reconstruction/pending_stripes.hpp"
 
-#include <fmt/format.h>
+#include <fmt/core.h>
 
 #include <utility>
 

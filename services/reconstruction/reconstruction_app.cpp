@@ -1,6 +1,6 @@
 #include "services/reconstruction/reconstruction_app.hpp"
 
-#include <fmt/format.h>
+#include <fmt/core.h>
 #include <spdlog/spdlog.h>
 
 #include <algorithm>

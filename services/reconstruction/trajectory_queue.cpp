@@ -1,6 +1,6 @@
 #include "services/reconstruction/trajectory_queue.hpp"
 
-#include <fmt/format.h>
+#include <fmt/core.h>
 
 #include <algorithm>
 #include <cstdlib>

@@ -1,6 +1,6 @@
 #include "services/robot_pose/hspo_packet.hpp"
 
-#include <fmt/format.h>
+#include <fmt/core.h>
 
 #include <bit>
 #include <cmath>

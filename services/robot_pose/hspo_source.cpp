@@ -1,6 +1,6 @@
 #include "services/robot_pose/hspo_source.hpp"
 
-#include <fmt/format.h>
+#include <fmt/core.h>
 
 namespace arcstart::robot_pose {
 namespace {

@@ -1,6 +1,6 @@
 #include "services/robot_pose/hspo_stream.hpp"
 
-#include <fmt/format.h>
+#include <fmt/core.h>
 
 #include <cmath>
 #include <utility>

@@ -1,6 +1,6 @@
 #include "services/robot_pose/robot_pose_app.hpp"
 
-#include <fmt/format.h>
+#include <fmt/core.h>
 
 #include <algorithm>
 

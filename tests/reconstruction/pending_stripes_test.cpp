@@ -1,5 +1,5 @@
 // The order of decisions, through the whole of Reconstruction without a bus.
-#include <fmt/format.h>
+#include <fmt/core.h>
 
 #include <catch2/catch.hpp>
 #include <string>

@@ -1,6 +1,6 @@
 #include "services/seam_finding/find_seam.hpp"
 
-#include <fmt/format.h>
+#include <fmt/core.h>
 
 #include <catch2/catch.hpp>
 #include <cmath>

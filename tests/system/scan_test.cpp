@@ -97,6 +97,6 @@ TEST_CASE("lcm-logplayer into live services gives what replay in process gives")
   CHECK(played.code == 0);
   std::string expected;
   for (const ReplayedSeam& seam : replay_recordings({recording}).seams)
-    expected += seam_to_json(seam.seam).dump() + "\n";
+    expected += seam_to_json_line(seam.seam) + "\n";
   CHECK(played.out == expected);
 }

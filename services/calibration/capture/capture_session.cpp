@@ -1,6 +1,6 @@
 #include "services/calibration/capture/capture_session.hpp"
 
-#include <fmt/format.h>
+#include <fmt/core.h>
 #include <spdlog/spdlog.h>
 
 #include <algorithm>

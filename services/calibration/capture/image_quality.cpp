@@ -1,6 +1,6 @@
 #include "services/calibration/capture/image_quality.hpp"
 
-#include <fmt/format.h>
+#include <fmt/core.h>
 
 #include <algorithm>
 #include <cmath>

@@ -1,6 +1,6 @@
 #include "services/calibration/files/view_detection.hpp"
 
-#include <fmt/format.h>
+#include <fmt/core.h>
 
 #include "services/calibration/target/target_detection.hpp"
 #include "services/extraction/stripe_extractor.hpp"

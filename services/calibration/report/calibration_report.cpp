@@ -1,6 +1,6 @@
 #include "services/calibration/report/calibration_report.hpp"
 
-#include <fmt/format.h>
+#include <fmt/core.h>
 
 #include <algorithm>
 #include <cmath>

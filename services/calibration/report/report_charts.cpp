@@ -1,6 +1,6 @@
 #include "services/calibration/report/report_charts.hpp"
 
-#include <fmt/format.h>
+#include <fmt/core.h>
 
 #include <algorithm>
 #include <opencv2/imgcodecs.hpp>

@@ -1,6 +1,6 @@
 #include "services/calibration/solve/calibrate.hpp"
 
-#include <fmt/format.h>
+#include <fmt/core.h>
 
 #include <algorithm>
 #include <cmath>

@@ -1,6 +1,6 @@
 #include "services/calibration/solve/calibration_result.hpp"
 
-#include <fmt/format.h>
+#include <fmt/core.h>
 
 #include <cmath>
 #include <numbers>

@@ -1,6 +1,6 @@
 #include "services/calibration/stages/pose_diversity.hpp"
 
-#include <fmt/format.h>
+#include <fmt/core.h>
 
 #include <Eigen/SVD>
 #include <algorithm>

@@ -1,6 +1,6 @@
 #include "services/calibration/stages/quaternion_order.hpp"
 
-#include <fmt/format.h>
+#include <fmt/core.h>
 
 #include <cmath>
 

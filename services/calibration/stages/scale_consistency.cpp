@@ -1,6 +1,6 @@
 #include "services/calibration/stages/scale_consistency.hpp"
 
-#include <fmt/format.h>
+#include <fmt/core.h>
 
 #include <Eigen/Dense>
 #include <cmath>

@@ -1,6 +1,6 @@
 #include "services/calibration/sweeps/drift_check.hpp"
 
-#include <fmt/format.h>
+#include <fmt/core.h>
 
 #include <Eigen/Eigenvalues>
 #include <algorithm>

@@ -1,6 +1,6 @@
 #include "services/calibration/sweeps/time_offset.hpp"
 
-#include <fmt/format.h>
+#include <fmt/core.h>
 
 #include <algorithm>
 #include <cmath>

@@ -1,6 +1,6 @@
 #include "services/cell_simulator/scene/scene.hpp"
 
-#include <fmt/format.h>
+#include <fmt/core.h>
 
 #include <Eigen/Geometry>
 

@@ -1,6 +1,6 @@
 #include "services/cell_simulator/scene/stl.hpp"
 
-#include <fmt/format.h>
+#include <fmt/core.h>
 
 #include <bit>
 #include <charconv>

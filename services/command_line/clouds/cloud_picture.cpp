@@ -1,6 +1,6 @@
 #include "services/command_line/clouds/cloud_picture.hpp"
 
-#include <fmt/format.h>
+#include <fmt/core.h>
 
 #include <Eigen/Geometry>
 #include <algorithm>

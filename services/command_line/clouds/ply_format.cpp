@@ -1,4 +1,4 @@
-#include <fmt/format.h>
+#include <fmt/core.h>
 
 #include "services/command_line/clouds/point_cloud_table.hpp"
 

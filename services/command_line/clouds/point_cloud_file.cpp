@@ -1,6 +1,6 @@
 #include "services/command_line/clouds/point_cloud_file.hpp"
 
-#include <fmt/format.h>
+#include <fmt/core.h>
 
 #include <cerrno>
 #include <cstring>

@@ -1,6 +1,6 @@
 #include "services/command_line/clouds/point_cloud_table.hpp"
 
-#include <fmt/format.h>
+#include <fmt/core.h>
 
 #include <array>
 #include <charconv>

@@ -1,6 +1,6 @@
 #include "services/command_line/commands/cell_command.hpp"
 
-#include <fmt/format.h>
+#include <fmt/core.h>
 
 #include <nlohmann/json.hpp>
 #include <optional>

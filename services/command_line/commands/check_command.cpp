@@ -1,6 +1,6 @@
 #include "services/command_line/commands/check_command.hpp"
 
-#include <fmt/format.h>
+#include <fmt/core.h>
 
 #include <iostream>
 #include <memory>

@@ -1,6 +1,6 @@
 #include "services/command_line/commands/extract_command.hpp"
 
-#include <fmt/format.h>
+#include <fmt/core.h>
 
 #include <algorithm>
 #include <cstdio>

@@ -1,6 +1,6 @@
 #include "services/command_line/commands/find_seam_command.hpp"
 
-#include <fmt/format.h>
+#include <fmt/core.h>
 
 #include <cerrno>
 #include <cmath>
@@ -189,7 +189,7 @@ int run(const Options& options) {
     seam_t seam = seam_finding::empty_seam();
     seam_finding::fill_in(seam, result);
     seam.points = cloud.size();
-    std::cout << seam_to_json(seam).dump() << "\n";
+    std::cout << seam_to_json_line(seam) << "\n";
   }
   if (!options.picture.empty()) draw(cloud, result, plane, options);
   if (!options.stations.empty()) write_stations(result, options.stations);

@@ -36,7 +36,7 @@ volatile std::sig_atomic_t end_asked = 0;
 
 void print(const Options& options, const Traffic& traffic, const Bus& bus) {
   if (options.json) {
-    std::cout << traffic.json(steady_now(), utime_now()).dump() << std::endl;
+    std::cout << traffic.json_line(steady_now(), utime_now()) << std::endl;
     return;
   }
   // On a terminal each table stands in the place of the one before.
@@ -66,7 +66,7 @@ int watch_seams(Bus& bus, const std::function<bool()>& is_over) {
         if (!decode(bytes, seam).empty() || !told.insert({channel, seam.scan_id}).second) return;
         // A sender may invent scans without end.
         if (told.size() > kMostSeams) told.erase(told.begin());
-        std::cout << seam_to_json(seam).dump() << std::endl;
+        std::cout << seam_to_json_line(seam) << std::endl;
         all_found &= seam.verdict == seam_t::FOUND || seam.verdict == seam_t::BACKGROUND_STORED;
       });
   while (!is_over()) bus.handle(std::chrono::milliseconds(50));

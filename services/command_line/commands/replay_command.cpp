@@ -1,6 +1,6 @@
 #include "services/command_line/commands/replay_command.hpp"
 
-#include <fmt/format.h>
+#include <fmt/core.h>
 
 #include <iostream>
 #include <memory>
@@ -52,7 +52,7 @@ void print(const ReplayResult& result, bool as_json) {
   for (const auto& warning : result.warnings) std::cerr << "replay: " << warning << "\n";
   for (const auto& seam : result.seams) {
     std::cerr << words(seam) << "\n";
-    if (as_json) std::cout << seam_to_json(seam.seam).dump() << "\n";
+    if (as_json) std::cout << seam_to_json_line(seam.seam) << "\n";
   }
   for (const auto& scan : result.unanswered)
     std::cerr << fmt::format("{} scan {}: no answer: {}\n",

@@ -52,7 +52,7 @@ int run(Options options) {
     return 1;
   }
   const seam_t& seam = *client.seam();
-  std::cout << seam_to_json(seam).dump(2) << "\n";
+  std::cout << seam_to_json_text(seam) << "\n";
   if (seam.verdict == seam_t::FOUND || seam.verdict == seam_t::BACKGROUND_STORED) return 0;
   std::cerr << "scan: no seam: " << printable(seam.reason) << "\n";
   return 1;

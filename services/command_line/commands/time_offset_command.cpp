@@ -1,6 +1,6 @@
 #include "services/command_line/commands/time_offset_command.hpp"
 
-#include <fmt/format.h>
+#include <fmt/core.h>
 
 #include <fstream>
 #include <iostream>

@@ -1,10 +1,11 @@
 #include "services/command_line/live/traffic.hpp"
 
-#include <fmt/format.h>
+#include <fmt/core.h>
 
 #include <algorithm>
 #include <array>
 #include <limits>
+#include <nlohmann/json.hpp>
 
 namespace arcstart::command_line {
 namespace {
@@ -155,6 +156,10 @@ nlohmann::json Traffic::json(std::int64_t steady, std::int64_t utime) const {
     list.push_back(std::move(entry));
   }
   return list;
+}
+
+std::string Traffic::json_line(std::int64_t steady, std::int64_t utime) const {
+  return json(steady, utime).dump();
 }
 
 }  // namespace arcstart::command_line

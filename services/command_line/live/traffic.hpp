@@ -4,7 +4,7 @@
 #include <cstdint>
 #include <deque>
 #include <map>
-#include <nlohmann/json.hpp>
+#include <nlohmann/json_fwd.hpp>
 #include <string>
 #include <vector>
 
@@ -30,6 +30,7 @@ class Traffic {
   std::string table(std::int64_t steady, std::int64_t utime) const;
   // The same, an object a channel; keys carry their unit.
   nlohmann::json json(std::int64_t steady, std::int64_t utime) const;
+  std::string json_line(std::int64_t steady, std::int64_t utime) const;
 
  private:
   struct Count {

@@ -1,6 +1,6 @@
 #include "services/command_line/output/seam_error.hpp"
 
-#include <fmt/format.h>
+#include <fmt/core.h>
 
 #include "common/geometry.hpp"
 

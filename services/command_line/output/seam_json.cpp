@@ -1,5 +1,6 @@
 #include "services/command_line/output/seam_json.hpp"
 
+#include <nlohmann/json.hpp>
 #include <string>
 #include <vector>
 
@@ -123,5 +124,8 @@ nlohmann::ordered_json seam_to_json(const seam_t& seam) {
   for (const auto& a : seam.alternatives) json["alternatives"].push_back(alternative(a));
   return json;
 }
+
+std::string seam_to_json_line(const seam_t& seam) { return seam_to_json(seam).dump(); }
+std::string seam_to_json_text(const seam_t& seam) { return seam_to_json(seam).dump(2); }
 
 }  // namespace arcstart::command_line

@@ -1,6 +1,6 @@
 #include "services/command_line/recordings/message_facts.hpp"
 
-#include <fmt/format.h>
+#include <fmt/core.h>
 
 #include <array>
 #include <string_view>

@@ -1,6 +1,6 @@
 #include "services/command_line/recordings/recorded_sweeps.hpp"
 
-#include <fmt/format.h>
+#include <fmt/core.h>
 
 #include <iostream>
 

@@ -1,5 +1,5 @@
 // What a person is told of a recording: what it lacks, what is damaged, why a scan has no answer.
-#include <fmt/format.h>
+#include <fmt/core.h>
 
 #include <algorithm>
 

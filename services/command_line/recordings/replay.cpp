@@ -1,6 +1,6 @@
 #include "services/command_line/recordings/replay.hpp"
 
-#include <fmt/format.h>
+#include <fmt/core.h>
 
 #include <algorithm>
 #include <cctype>

@@ -1,6 +1,6 @@
 #include "services/extraction/files/image_decoding.hpp"
 
-#include <fmt/format.h>
+#include <fmt/core.h>
 
 #include <cstring>
 #include <opencv2/imgcodecs.hpp>

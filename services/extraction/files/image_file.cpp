@@ -1,6 +1,6 @@
 #include "services/extraction/files/image_file.hpp"
 
-#include <fmt/format.h>
+#include <fmt/core.h>
 
 #include <cstdint>
 #include <filesystem>

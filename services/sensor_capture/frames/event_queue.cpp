@@ -1,6 +1,6 @@
 #include "services/sensor_capture/frames/event_queue.hpp"
 
-#include <fmt/format.h>
+#include <fmt/core.h>
 
 namespace arcstart::sensor_capture {
 

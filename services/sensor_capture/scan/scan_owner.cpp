@@ -1,6 +1,6 @@
 #include "services/sensor_capture/scan/scan_owner.hpp"
 
-#include <fmt/format.h>
+#include <fmt/core.h>
 
 #include <algorithm>
 #include <cmath>

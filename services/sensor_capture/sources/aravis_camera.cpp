@@ -1,7 +1,7 @@
 #include "services/sensor_capture/sources/aravis_camera.hpp"
 
 #include <arv.h>
-#include <fmt/format.h>
+#include <fmt/core.h>
 
 #include <chrono>
 

@@ -1,6 +1,6 @@
 // How a buffer of Aravis' becomes a frame.
 #include <arv.h>
-#include <fmt/format.h>
+#include <fmt/core.h>
 
 #include <utility>
 

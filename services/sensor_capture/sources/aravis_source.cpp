@@ -1,6 +1,6 @@
 #include "services/sensor_capture/sources/aravis_source.hpp"
 
-#include <fmt/format.h>
+#include <fmt/core.h>
 
 #include <algorithm>
 #include <memory>

@@ -1,6 +1,6 @@
 #include "services/sensor_capture/sources/folder_source.hpp"
 
-#include <fmt/format.h>
+#include <fmt/core.h>
 
 #include <algorithm>
 #include <opencv2/core.hpp>

@@ -1,6 +1,6 @@
 #include "tests/bench/calibration/calibration_live.hpp"
 
-#include <fmt/format.h>
+#include <fmt/core.h>
 
 #include <cmath>
 

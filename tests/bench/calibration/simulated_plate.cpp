@@ -1,6 +1,6 @@
 #include "tests/bench/calibration/simulated_plate.hpp"
 
-#include <fmt/format.h>
+#include <fmt/core.h>
 
 #include <filesystem>
 #include <fstream>

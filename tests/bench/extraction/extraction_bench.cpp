@@ -2,7 +2,7 @@
 // does.
 #include "tests/bench/extraction/extraction_bench.hpp"
 
-#include <fmt/format.h>
+#include <fmt/core.h>
 
 #include <algorithm>
 #include <fstream>

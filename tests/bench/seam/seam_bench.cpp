@@ -1,5 +1,5 @@
 // bench_seam: how right, how sure and how fast the seam is found. Every seed counts.
-#include <fmt/format.h>
+#include <fmt/core.h>
 #include <spdlog/spdlog.h>
 
 #include <fstream>

@@ -1,6 +1,6 @@
 #include "services/cell_simulator/robot/hspo_packet.hpp"
 
-#include <fmt/format.h>
+#include <fmt/core.h>
 
 #include <catch2/catch.hpp>
 

@@ -2,7 +2,7 @@
 // test's own.
 #include "services/command_line/live/scan_client.hpp"
 
-#include <fmt/format.h>
+#include <fmt/core.h>
 
 #include <catch2/catch.hpp>
 #include <set>

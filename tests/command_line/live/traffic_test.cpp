@@ -1,10 +1,11 @@
 #include "services/command_line/live/traffic.hpp"
 
-#include <fmt/format.h>
+#include <fmt/core.h>
 
 #include <algorithm>
 #include <catch2/catch.hpp>
 #include <limits>
+#include <nlohmann/json.hpp>
 
 using namespace arcstart;
 using namespace arcstart::command_line;

@@ -1,5 +1,5 @@
 // Joints beside the tee: lap, outside corner, butt and V-groove in scans in closed form.
-#include <fmt/format.h>
+#include <fmt/core.h>
 
 #include <catch2/catch.hpp>
 #include <cmath>
