@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "services/seam_finding/cloud/neighbour_grid.hpp"
+#include "services/seam_finding/fit/order_statistics.hpp"
 #include "services/seam_finding/fit/plane_fit.hpp"
 
 namespace arcstart::seam_finding {
@@ -18,14 +19,6 @@ constexpr int kMostSteps = 2048;  // of a larger cloud so many serve
 constexpr int kNeighbourhoods = 2500, kLooseNeighbourhoods = 16384;
 constexpr std::size_t kCrowd = 64;  // points of a cell that are looked at for the noise
 
-double percentile(std::vector<double>& values, double share) {
-  if (values.empty()) return 0;
-  const auto middle =
-      values.begin() + static_cast<std::ptrdiff_t>(share * static_cast<double>(values.size() - 1));
-  std::nth_element(values.begin(), middle, values.end());
-  return *middle;
-}
-
 // The median way between neighbouring stripes, where the tool moves: it may stand still at the
 // scan's begin and end.
 double stripe_spacing(const ScanCloud& cloud) {
@@ -35,9 +28,9 @@ double stripe_spacing(const ScanCloud& cloud) {
     if (a.seen == ScanStripe::Seen::kSeen && b.seen == ScanStripe::Seen::kSeen)
       steps.push_back((b.tool_position - a.tool_position).norm());
   }
-  const double fast = percentile(steps, 0.9);
+  const double fast = quantile(steps, 0.9);
   std::erase_if(steps, [&](double step) { return step < 0.3 * fast; });
-  return percentile(steps, 0.5);
+  return quantile(steps, 0.5);
 }
 
 // Between neighbours along a stripe, evenly taken where there are many.
@@ -68,7 +61,7 @@ double point_spacing(const ScanCloud& cloud) {
     }
     if (2 * found.size() * static_cast<std::size_t>(step) > cloud.points.size()) break;
   }
-  return percentile(found, 0.5) / std::sqrt(2.0);
+  return quantile(found, 0.5) / std::sqrt(2.0);
 }
 
 // The typical distance of points from the plane through their neighbourhood. Edges and corners
@@ -98,7 +91,7 @@ double surface_noise(const ScanCloud& cloud, double radius) {
     if (fit.spread[0] > 0.2 * radius)
       found.push_back(fit.rms * std::sqrt(sums.weight() / (sums.weight() - 3)));
   }
-  return percentile(found, 0.35);
+  return quantile(found, 0.35);
 }
 
 }  // namespace
@@ -109,8 +102,8 @@ Sampling measure_sampling(const ScanCloud& cloud) {
   sampling.spacing = cloud.organised() ? stripe_spacing(cloud) : point_spacing(cloud);
   if (cloud.organised()) {
     std::vector<double> steps = stripe_steps(cloud);
-    sampling.step = percentile(steps, 0.9);
-    sampling.pitch = percentile(steps, 0.5);
+    sampling.step = quantile(steps, 0.9);
+    sampling.pitch = quantile(steps, 0.5);
   }
   sampling.noise = surface_noise(cloud, 3 * sampling.spacing);
   return sampling;

@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "services/seam_finding/coverage/stations.hpp"
+#include "services/seam_finding/fit/order_statistics.hpp"
 
 namespace arcstart::seam_finding {
 namespace {
@@ -22,9 +23,8 @@ double running_on(const ScanCloud& cloud, const JointPlate& plate, double tolera
       steps.push_back((cloud.points[b] - cloud.points[a]).norm());
   }
   if (steps.empty()) return plate.contact;
-  const auto high = steps.begin() + static_cast<std::ptrdiff_t>(9 * (steps.size() - 1) / 10);
-  std::nth_element(steps.begin(), high, steps.end());
-  return std::min(plate.contact, tolerance + std::max(kLeastSlack, kStepMargin * *high));
+  return std::min(plate.contact,
+                  tolerance + std::max(kLeastSlack, kStepMargin * quantile(steps, 0.9)));
 }
 
 }  // namespace

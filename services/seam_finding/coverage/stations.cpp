@@ -5,6 +5,8 @@
 #include <limits>
 #include <optional>
 
+#include "services/seam_finding/fit/order_statistics.hpp"
+
 namespace arcstart::seam_finding {
 namespace {
 
@@ -71,9 +73,7 @@ double near_limit(Sights& sights, double tolerance, double contact) {
       if (first + 1 != last) steps.push_back(*(first + 1) - *first);
   }
   if (steps.empty()) return contact;
-  const auto high = steps.begin() + static_cast<std::ptrdiff_t>(9 * (steps.size() - 1) / 10);
-  std::nth_element(steps.begin(), high, steps.end());
-  return std::min(contact, tolerance + kStepMargin * *high);
+  return std::min(contact, tolerance + kStepMargin * quantile(steps, 0.9));
 }
 
 using Places = std::vector<std::optional<double>>;

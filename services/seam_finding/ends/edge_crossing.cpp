@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "services/seam_finding/fit/order_statistics.hpp"
+
 namespace arcstart::seam_finding {
 namespace {
 
@@ -37,9 +39,7 @@ double thinned_step(const ScanCloud& cloud, const std::vector<int>& run) {
   std::vector<double> steps;
   for (std::size_t i = 1; i < run.size(); i += 1 + run.size() / kSteps)
     steps.push_back((cloud.points[run[i]] - cloud.points[run[i - 1]]).norm());
-  const auto middle = steps.begin() + static_cast<std::ptrdiff_t>(steps.size() / 2);
-  std::nth_element(steps.begin(), middle, steps.end());
-  return *middle;
+  return median(steps);
 }
 
 // Where along the seam the cut is over whose edge the stripe turns, from its next points: a cut is

@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "services/seam_finding/ends/edge_crossing.hpp"
+#include "services/seam_finding/fit/order_statistics.hpp"
 
 namespace arcstart::seam_finding {
 namespace {
@@ -57,18 +58,12 @@ EdgeFit fit_edge(const Places& places, double noise, double slope) {
   return {(t * rr - r * rt) / determinant, (w * rt - r * t) / determinant, rr / determinant};
 }
 
-// The median; of an even number the upper of the two in the middle.
-double median(std::vector<double> values) {
-  const auto middle = values.begin() + std::ssize(values) / 2;
-  std::nth_element(values.begin(), middle, values.end());
-  return *middle;
-}
 template <class Value>
 double middle_of(const Places& places, Value value) {
   std::vector<double> values;
   values.reserve(places.size());
   for (const EdgeCrossing& place : places) values.push_back(value(place));
-  return median(std::move(values));
+  return median(values);
 }
 
 // Standard deviations: of the places about an edge, and what is known of them one by one.
@@ -93,7 +88,7 @@ EdgeFit through_the_middle(const Places& places) {
     for (const EdgeCrossing& b : places)
       if (b.away - a.away > kApart) slopes.push_back((b.along - a.along) / (b.away - a.away));
   if (slopes.size() < places.size()) return square;
-  EdgeFit askew{0, median(std::move(slopes)), 0};
+  EdgeFit askew{0, median(slopes), 0};
   askew.at_seam = middle_of(
       places, [&](const EdgeCrossing& place) { return place.along - askew.slope * place.away; });
   return kPlainly * spread_about(places, askew) < spread ? askew : square;

@@ -4,6 +4,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "services/seam_finding/fit/order_statistics.hpp"
+
 namespace arcstart::seam_finding {
 namespace {
 
@@ -43,9 +45,7 @@ std::optional<LineFit> fit_line(const std::vector<LinePlace>& places, double lea
                           place.deviation);
     std::vector<double> sizes = residuals;
     for (double& size : sizes) size = std::abs(size);
-    const auto median = sizes.begin() + static_cast<std::ptrdiff_t>(sizes.size() / 2);
-    std::nth_element(sizes.begin(), median, sizes.end());
-    scale = std::max(1.0, kMedianToDeviation * *median);
+    scale = std::max(1.0, kMedianToDeviation * median(sizes));
     fit.places = 0;
     for (std::size_t i = 0; i < places.size(); ++i) {
       const double off = residuals[i] / (kTukey * scale);

@@ -5,6 +5,8 @@
 #include <cmath>
 #include <limits>
 
+#include "services/seam_finding/fit/order_statistics.hpp"
+
 namespace arcstart::seam_finding {
 namespace {
 
@@ -45,9 +47,7 @@ class Fit {
       if (is_below(place)) depths.push_back(-place.height), seen_ += x_of(place, {0, 0, 0, 0});
     if (std::ssize(depths) < kLeastBelow) return;
     seen_ /= static_cast<double>(depths.size());
-    const auto high = depths.begin() + 9 * (std::ssize(depths) - 1) / 10;
-    std::nth_element(depths.begin(), high, depths.end());
-    scale_ = kOutlier * *high;
+    scale_ = kOutlier * quantile(depths, 0.9);
   }
 
   // Whether there is anything to fit; and where it was seen, on the average.

@@ -4,6 +4,8 @@
 #include <cmath>
 #include <span>
 
+#include "services/seam_finding/fit/order_statistics.hpp"
+
 namespace arcstart::seam_finding {
 namespace {
 
@@ -171,10 +173,7 @@ double thinning_of(const ScanCloud& cloud, const std::vector<int>& points) {
         a.step > 0)
       steps.push_back((cloud.points[points[i]] - cloud.points[points[i - 1]]).norm() / a.step);
   }
-  if (steps.empty()) return 0;
-  const auto high = steps.begin() + static_cast<std::ptrdiff_t>(3 * (steps.size() - 1) / 4);
-  std::nth_element(steps.begin(), high, steps.end());
-  return *high;
+  return quantile(steps, 0.75);
 }
 
 using Gaps = std::vector<std::optional<RootGap>>;

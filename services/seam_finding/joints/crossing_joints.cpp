@@ -6,6 +6,7 @@
 
 #include "common/geometry.hpp"
 #include "services/seam_finding/coverage/coverage.hpp"
+#include "services/seam_finding/fit/order_statistics.hpp"
 
 namespace arcstart::seam_finding {
 namespace {
@@ -69,12 +70,6 @@ struct Beside {
   double reach = 0;   // three quarters of the points are nearer; mm
   double whole = 0;   // nine tenths of all the plate's points there are nearer; mm
 };
-double quantile(std::vector<double>& values, std::size_t part, std::size_t of) {
-  if (values.empty()) return 0;
-  const auto place = values.begin() + static_cast<std::ptrdiff_t>(part * values.size() / of);
-  std::nth_element(values.begin(), place, values.end());
-  return *place;
-}
 
 Beside look_beside(const ScanCloud& cloud, const Joint& joint, int plate, double tolerance) {
   const bool outside = joint.type == JointType::kOutsideCorner;
@@ -95,8 +90,8 @@ Beside look_beside(const ScanCloud& cloud, const Joint& joint, int plate, double
   }
   Beside beside;
   if (before > 0) beside.before = static_cast<double>(before) / (before + behind);
-  beside.reach = quantile(distances, 3, 4);
-  beside.whole = quantile(all, 9, 10);
+  beside.reach = upper_quantile(distances, 0.75);
+  beside.whole = upper_quantile(all, 0.9);
   return beside;
 }
 

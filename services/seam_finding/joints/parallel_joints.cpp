@@ -5,6 +5,7 @@
 
 #include "services/seam_finding/coverage/coverage.hpp"
 #include "services/seam_finding/coverage/parallel_stations.hpp"
+#include "services/seam_finding/fit/order_statistics.hpp"
 #include "services/seam_finding/fit/plane_fit.hpp"
 #include "services/seam_finding/joints/parallel_edges.hpp"
 #include "services/seam_finding/joints/transition_line.hpp"
@@ -87,11 +88,7 @@ double reach_of(const ScanCloud& cloud, const JointPlate& plate, const Line& bor
   std::vector<double> distances;
   for (const int i : plate.points)
     distances.push_back(std::abs(plate.away.dot(cloud.points[i] - border.point)));
-  if (distances.empty()) return 0;
-  const auto high =
-      distances.begin() + static_cast<std::ptrdiff_t>(9 * (distances.size() - 1) / 10);
-  std::nth_element(distances.begin(), high, distances.end());
-  return *high;
+  return quantile(distances, 0.9);
 }
 
 // The plates' edges make a lap: the upper one's lower edge on the lower one. False where there is

@@ -10,6 +10,7 @@
 #include "services/seam_finding/cloud/connected_components.hpp"
 #include "services/seam_finding/cloud/neighbour_grid.hpp"
 #include "services/seam_finding/cloud/plane_points.hpp"
+#include "services/seam_finding/fit/order_statistics.hpp"
 #include "services/seam_finding/fit/plane_fit.hpp"
 #include "services/seam_finding/planes/plane_hypotheses.hpp"
 #include "services/seam_finding/planes/stripe_planes.hpp"
@@ -204,9 +205,7 @@ double spacing_of(const NeighbourGrid& grid, const std::vector<int>& points) {
     const double squared = nearest_four(grid, points[i], chosen).back();
     fourth.push_back(std::isinf(squared) ? grid.cell_size() : std::sqrt(squared));
   }
-  const auto middle = fourth.begin() + static_cast<std::ptrdiff_t>(fourth.size() / 2);
-  std::nth_element(fourth.begin(), middle, fourth.end());
-  return *middle;
+  return median(fourth);
 }
 
 }  // namespace

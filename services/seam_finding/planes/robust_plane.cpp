@@ -9,6 +9,7 @@
 #include <optional>
 
 #include "services/seam_finding/fit/biweight_sums.hpp"
+#include "services/seam_finding/fit/order_statistics.hpp"
 #include "services/seam_finding/planes/interreflection.hpp"
 
 namespace arcstart::seam_finding {
@@ -123,9 +124,7 @@ double spread_about(const Heights& points, const Heights::Model& model) {
   distances.reserve(points.size() / every + 1);
   for (std::size_t i = 0; i < points.size(); i += every)
     distances.push_back(static_cast<float>(std::abs(points.residual(model, i))));
-  const auto middle = distances.begin() + static_cast<std::ptrdiff_t>(distances.size() / 2);
-  std::nth_element(distances.begin(), middle, distances.end());
-  return kMedianToDeviation * *middle;
+  return kMedianToDeviation * median(distances);
 }
 
 // The strip along the line that each point lies in: strips of equal numbers, counted from the line

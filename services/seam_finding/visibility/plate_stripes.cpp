@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "services/seam_finding/fit/order_statistics.hpp"
+
 namespace arcstart::seam_finding {
 namespace {
 
@@ -47,10 +49,7 @@ double usual_reach(const ScanCloud& cloud, const PlateStripes& stripes) {
       reach = std::max(reach, stripes.away.dot(cloud.points[i] - stripes.line.point));
     if (reach > 0) reaches.push_back(reach);
   }
-  if (reaches.empty()) return 0;
-  const auto middle = reaches.begin() + static_cast<std::ptrdiff_t>(reaches.size() / 2);
-  std::nth_element(reaches.begin(), middle, reaches.end());
-  return *middle;
+  return median(reaches);
 }
 
 }  // namespace
