@@ -17,7 +17,6 @@ constexpr double kLeastDepth = 1.5;     // of a cut by which its slant is known;
 constexpr std::size_t kLeastCut = 6;    // points on a cut
 constexpr double kOffPlate = 1.25;      // a cut's points over what lies on the plates
 constexpr double kNear = 4;             // `near_mm`, in deviations of a point from its plate
-constexpr double kWidest = 4;           // of a narrow gap; mm
 constexpr double kBeside = 4;           // it is sought among what lies so near; mm
 constexpr double kSlanting = 0.2;       // a cut from the plate's normal; rad
 constexpr double kLeastNoise = 0.06;    // beside a gap the light of both plates mingles; mm

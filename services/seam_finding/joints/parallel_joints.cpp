@@ -8,7 +8,7 @@
 #include "services/seam_finding/fit/order_statistics.hpp"
 #include "services/seam_finding/fit/plane_fit.hpp"
 #include "services/seam_finding/joints/parallel_edges.hpp"
-#include "services/seam_finding/joints/transition_line.hpp"
+#include "services/seam_finding/joints/transitions.hpp"
 
 namespace arcstart::seam_finding {
 namespace {
