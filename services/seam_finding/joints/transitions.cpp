@@ -5,13 +5,10 @@
 #include <map>
 #include <set>
 
+#include "services/seam_finding/joints/constants.hpp"
+
 namespace arcstart::seam_finding {
 namespace {
-
-constexpr double kOnLine = 2;        // a transition from its line; mm
-constexpr double kLeastBase = 10;    // between the transitions that draw a line; mm
-constexpr double kSteepest = 0.8;    // of it, mm across for each mm along
-constexpr std::size_t kDrawn = 200;  // transitions that may draw one
 
 // A stripe's segments come in the image's order; across the search they are put in theirs.
 Section in_order(const ScanCloud& cloud, const ScanStripe& stripe, const PlateFrame& frame) {
@@ -102,19 +99,19 @@ std::vector<Transition> on_one_line(const ScanCloud& cloud, const PlateFrame& fr
   std::vector<Eigen::Vector3d> places;
   for (const Transition& transition : transitions)
     places.push_back(place_of(cloud, frame, transition));
-  const std::size_t stride = 1 + transitions.size() / kDrawn;
+  const std::size_t stride = 1 + transitions.size() / kJoints.drawn;
   std::size_t most = 0;
   std::vector<Transition> best;
   for (std::size_t a = 0; a < places.size(); a += stride)
     for (std::size_t b = a + stride; b < places.size(); b += stride) {
       const double base = places[b].x() - places[a].x();
       const double slope = (places[b].y() - places[a].y()) / base;
-      if (std::abs(base) < kLeastBase || std::abs(slope) > kSteepest) continue;
+      if (std::abs(base) < kJoints.least_base || std::abs(slope) > kJoints.steepest_line) continue;
       std::set<int> sections;
       std::vector<Transition> chosen;
       for (std::size_t i = 0; i < places.size(); ++i) {
         const double off = places[i].y() - places[a].y() - slope * (places[i].x() - places[a].x());
-        if (std::abs(off) <= kOnLine && sections.insert(transitions[i].section).second)
+        if (std::abs(off) <= kJoints.on_line && sections.insert(transitions[i].section).second)
           chosen.push_back(transitions[i]);
       }
       if (chosen.size() > most) most = chosen.size(), best = std::move(chosen);
