@@ -5,14 +5,10 @@
 #include <map>
 #include <vector>
 
+#include "services/seam_finding/answer/constants.hpp"
+
 namespace arcstart::seam_finding {
 namespace {
-
-constexpr double kFloor = 0.005;  // of a plane's height: what all its points have in common; mm
-constexpr double kAcrossFloor = 0.02;  // of the seam across, whatever the number of its places; mm
-constexpr std::size_t kEnough = 2048;  // points of a plate, evenly taken, tell how they scatter
-constexpr int kLeastStripes = 3;
-constexpr double kOutlier = 3;  // standard deviations
 
 struct Sums {
   double n = 0, t = 0, off = 0;
@@ -44,7 +40,7 @@ PlaneAccuracy plane_accuracy(const ScanCloud& cloud, const JointPlate& plate,
                              const JointPlate& other, const Line& line, double distance_mm,
                              double spacing_mm) {
   const Eigen::Vector3d away = away_from_seam(plate, other);
-  const std::size_t every = 1 + plate.points.size() / kEnough;
+  const std::size_t every = 1 + plate.points.size() / kCloud.small_sample;
   std::vector<int> beside;
   beside.reserve(plate.points.size() / every + 1);
   Spread all;
@@ -58,7 +54,7 @@ PlaneAccuracy plane_accuracy(const ScanCloud& cloud, const JointPlate& plate,
   }
   PlaneAccuracy accuracy;
   if (all.n < 3) return accuracy;
-  const double limit = kOutlier * std::sqrt(all.squares / all.n);
+  const double limit = kFit.outlier * std::sqrt(all.squares / all.n);
 
   Spread off, r;
   std::map<int, Sums> stripes;
@@ -79,13 +75,15 @@ PlaneAccuracy plane_accuracy(const ScanCloud& cloud, const JointPlate& plate,
   Spread means, places;
   for (const auto& [stripe, seen] : stripes)
     means.add(seen.off / seen.n), places.add(seen.t / seen.n);
-  if (means.n < kLeastStripes || !(places.variance() > 0) || !(r.variance() > 0)) return accuracy;
+  if (means.n < kModel.plane_stripes || !(places.variance() > 0) || !(r.variance() > 0))
+    return accuracy;
   const double per_stripe = means.variance() / (means.n - 2);
   const double per_point = off.squares / off.n / off.n / static_cast<double>(every);
   accuracy.middle = places.mean();
   accuracy.slope_along = per_stripe / places.variance();
   accuracy.slope_away = per_point / r.variance();
-  accuracy.height = per_stripe + accuracy.slope_away * r.mean() * r.mean() + kFloor * kFloor;
+  accuracy.height = per_stripe + accuracy.slope_away * r.mean() * r.mean() +
+                    kAnswer.height_floor * kAnswer.height_floor;
   accuracy.determined = true;
   return accuracy;
 }
@@ -130,7 +128,7 @@ std::optional<SeamAccuracy> parallel_accuracy(const Joint& joint,
     // The line's own point is where the seam is known best.
     const double sideways = seam.variance + seam.slope_variance * place.along * place.along;
     return place.variance * along * along.transpose() +
-           (sideways + kAcrossFloor * kAcrossFloor) * across * across.transpose() +
+           (sideways + kAnswer.across_floor * kAnswer.across_floor) * across * across.transpose() +
            accuracies[0].height_at(place.along) * out * out.transpose();
   };
   SeamAccuracy accuracy;

@@ -3,6 +3,7 @@
 #include <utility>
 
 #include "common/geometry.hpp"
+#include "services/seam_finding/answer/constants.hpp"
 #include "services/seam_finding/answer/seam_measurements.hpp"
 #include "services/seam_finding/answer/torch.hpp"
 
@@ -10,8 +11,6 @@ namespace arcstart::seam_finding {
 namespace {
 
 using Code = Reason::Code;
-
-constexpr double kStraight = 0.5;  // mm
 
 Reason remark_on(const SeamEnd& end, SeamSide side) {
   const bool start = side == SeamSide::kBegin;
@@ -81,7 +80,7 @@ SeamResult describe(Joint joint, Findings findings, const SeamFindingSettings& s
 
   result.stations = std::move(findings.stations);
   set_gap(result);
-  result.polyline = polyline_through(result.stations, result.start, result.end, kStraight);
+  result.polyline = polyline_through(result.stations, result.start, result.end, kAnswer.straight);
   const double origin = joint.line.along(result.start);
   for (SeamMeasurement& place : result.stations) place.along -= origin;
   result.torch = torch_at(result.start, result.direction, findings.torch_faces,

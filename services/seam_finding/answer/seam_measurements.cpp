@@ -5,18 +5,11 @@
 #include <cmath>
 #include <map>
 
+#include "services/seam_finding/answer/constants.hpp"
 #include "services/seam_finding/gaps/root_gap.hpp"
 
 namespace arcstart::seam_finding {
 namespace {
-
-constexpr double kFrom = 4,
-                 kTo = 20;  // from the seam: where a plate is straight again, and local; mm
-constexpr int kLeastPoints = 3;
-// A bead lies so near the seam: a fillet's on the plates, that of parallel plates on their top; mm.
-constexpr double kTackReach = 8, kParallelTackReach = 6;
-constexpr double kTackHeight = 1;  // and stands so far before both plates; mm
-constexpr int kTackPoints = 2;     // that chance does not put there
 
 struct Seen {
   double height[2] = {0, 0};
@@ -38,8 +31,8 @@ void for_each_on_bead(const ScanCloud& cloud, int first, int last,
     // Component by component: most of a scan's points end here.
     const double height =
         one.normal.x() * p.x() + one.normal.y() * p.y() + one.normal.z() * p.z() + one.offset;
-    if (height >= kTackHeight && other.signed_distance(p) >= kTackHeight &&
-        line.distance(p) <= kTackReach)
+    if (height >= kAnswer.tack_height && other.signed_distance(p) >= kAnswer.tack_height &&
+        line.distance(p) <= kAnswer.tack_reach)
       visit(i, line.along(p));
   }
 }
@@ -60,7 +53,9 @@ std::vector<SeamMeasurement> places_by_heights(const ScanCloud& cloud,
     for (const int i : plates[j].points) {
       const Eigen::Vector3d p = cloud.points[i] - line.point;
       const double along = line.direction.dot(p), squared = p.squaredNorm() - along * along;
-      if (squared < kFrom * kFrom || squared > kTo * kTo || cloud.origins[i].segment_end) continue;
+      if (squared < kAnswer.straight_from * kAnswer.straight_from ||
+          squared > kModel.straight_beside * kModel.straight_beside || cloud.origins[i].segment_end)
+        continue;
       const int place = key(i, along);
       if (last == nullptr || place != last_place) last = &by_stripe[place], last_place = place;
       Seen& seen = *last;
@@ -96,8 +91,8 @@ std::vector<SeamMeasurement> places_by_heights(const ScanCloud& cloud,
     place.along = seen.place();
     if (cloud.organised()) place.stripe = stripe;
     place.position = line.at(place.along);
-    place.tack = seen.bead >= kTackPoints;
-    if (seen.count[0] >= kLeastPoints && seen.count[1] >= kLeastPoints) {
+    place.tack = seen.bead >= kModel.sure_off_plate;
+    if (seen.count[0] >= kModel.sure_points && seen.count[1] >= kModel.sure_points) {
       const Eigen::Vector3d off = inverse * Eigen::Vector3d(seen.height[0] / seen.count[0],
                                                             seen.height[1] / seen.count[1], 0);
       place.residual = off.norm();
@@ -127,14 +122,14 @@ std::vector<SeamMeasurement> places_by_stations(const ScanCloud& cloud, const Jo
   }
   std::vector<int> bead(places.size());
   for (const Eigen::Vector3d& point : cloud.points) {
-    if (joint.line.distance(point) > kParallelTackReach ||
-        joint.plates[0].plane.signed_distance(point) < kTackHeight ||
-        joint.plates[1].plane.signed_distance(point) < kTackHeight)
+    if (joint.line.distance(point) > kAnswer.parallel_tack_reach ||
+        joint.plates[0].plane.signed_distance(point) < kAnswer.tack_height ||
+        joint.plates[1].plane.signed_distance(point) < kAnswer.tack_height)
       continue;
     for (std::size_t i = 0; i < places.size(); ++i)
       bead[i] += std::abs(joint.line.along(point) - places[i].along) < spacing_mm / 2;
   }
-  for (std::size_t i = 0; i < places.size(); ++i) places[i].tack = bead[i] >= kTackPoints;
+  for (std::size_t i = 0; i < places.size(); ++i) places[i].tack = bead[i] >= kModel.sure_off_plate;
   return places;
 }
 

@@ -4,13 +4,9 @@
 #include <cmath>
 
 #include "common/geometry.hpp"
+#include "services/seam_finding/answer/constants.hpp"
 
 namespace arcstart::seam_finding {
-namespace {
-
-constexpr double kLeastShare = 0.1;  // of the open angle between the torch and a plate
-
-}  // namespace
 
 TorchPose torch_at(const Eigen::Vector3d& start, const Eigen::Vector3d& direction,
                    const std::array<Eigen::Vector3d, 2>& normals, const TorchChoice& choice) {
@@ -21,7 +17,8 @@ TorchPose torch_at(const Eigen::Vector3d& start, const Eigen::Vector3d& directio
       (normals[1 - flat] - normals[1 - flat].dot(n) * n).normalized();
   const double open = M_PI - angle_between(normals[0], normals[1]);
   const double wanted = choice.work_angle > 0 ? choice.work_angle : open / 2;
-  const double work = std::clamp(wanted, kLeastShare * open, (1 - kLeastShare) * open);
+  const double work =
+      std::clamp(wanted, kAnswer.least_torch_share * open, (1 - kAnswer.least_torch_share) * open);
   const Eigen::Vector3d out = std::cos(work) * along_plate + std::sin(work) * n;
   const Eigen::Vector3d wire =
       (-std::cos(choice.travel_angle) * out + std::sin(choice.travel_angle) * direction)

@@ -4,13 +4,11 @@
 #include <cmath>
 #include <cstddef>
 
+#include "services/seam_finding/background/constants.hpp"
 #include "services/seam_finding/fit/plane_fit.hpp"
 
 namespace arcstart::seam_finding {
 namespace {
-
-constexpr std::size_t kMostBackground = 2048;  // points; of more so many are looked at
-constexpr double kContinues = 0.25;  // share of a face's points that lie in its plane as background
 
 bool continues_background(const ScanCloud& scan, const std::vector<int>& background,
                           const Face& face, const Scales& scales) {
@@ -19,7 +17,7 @@ bool continues_background(const ScanCloud& scan, const std::vector<int>& backgro
     low = low.cwiseMin(scan.points[i]), high = high.cwiseMax(scan.points[i]);
   const double around = 4 * scales.connection;
   PlaneSums in_plane(low);
-  const std::size_t every = 1 + background.size() / kMostBackground;
+  const std::size_t every = 1 + background.size() / kCloud.small_sample;
   for (std::size_t i = 0; i < background.size(); i += every) {
     const Eigen::Vector3d& p = scan.points[background[i]];
     if (std::abs(face.plane.signed_distance(p)) <= scales.tolerance &&
@@ -28,7 +26,7 @@ bool continues_background(const ScanCloud& scan, const std::vector<int>& backgro
   }
   // Where the plane only cuts through the background they lie on a narrow strip.
   return in_plane.weight() * static_cast<double>(every) >=
-             std::max(10.0, kContinues * static_cast<double>(face.points.size())) &&
+             std::max(10.0, kBackground.continues * static_cast<double>(face.points.size())) &&
          in_plane.fit().spread[0] > 3 * scales.tolerance;
 }
 

@@ -2,16 +2,12 @@
 
 #include <vector>
 
+#include "services/seam_finding/background/constants.hpp"
 #include "services/seam_finding/cloud/scales.hpp"
 #include "services/seam_finding/planes/plane_search.hpp"
 #include "services/seam_finding/planes/planes.hpp"
 
 namespace arcstart::seam_finding {
-namespace {
-
-constexpr double kPlaneHeights = 5;  // in tolerances
-
-}  // namespace
 
 std::optional<Plane> dominant_plane(const ScanCloud& cloud, std::uint64_t seed) {
   const Scales scales = scales_of(cloud, measure_sampling(cloud), 0);
@@ -24,15 +20,15 @@ std::optional<Plane> dominant_plane(const ScanCloud& cloud, std::uint64_t seed) 
   const Plane plane = faces.front().plane;
   int above = 0, below = 0;
   for (const auto& point : cloud.points) {
-    above += plane.signed_distance(point) > kPlaneHeights * scales.tolerance;
-    below += plane.signed_distance(point) < -kPlaneHeights * scales.tolerance;
+    above += plane.signed_distance(point) > kBackground.plane_heights * scales.tolerance;
+    below += plane.signed_distance(point) < -kBackground.plane_heights * scales.tolerance;
   }
   return above >= below ? plane : plane.flipped();
 }
 
 PlaneBackground::PlaneBackground(const ScanCloud& cloud, const Plane& plane)
     : plane_(plane),
-      height_(kPlaneHeights * scales_of(cloud, measure_sampling(cloud), 0).tolerance) {}
+      height_(kBackground.plane_heights * scales_of(cloud, measure_sampling(cloud), 0).tolerance) {}
 
 bool PlaneBackground::contains(const Eigen::Vector3d& point) const {
   return plane_.signed_distance(point) <= height_;

@@ -5,22 +5,15 @@
 #include <cmath>
 #include <utility>
 
+#include "services/seam_finding/background/constants.hpp"
 #include "services/seam_finding/fit/plane_fit.hpp"
 
 namespace arcstart::seam_finding {
 namespace {
 
-constexpr double kLeastCell = 4;       // mm
-constexpr double kCellSpacings = 1.5;  // a cell is so many stripe spacings wide
-constexpr double kCellSteps = 1.2;     // and so many steps along a stripe
-constexpr double kLeastSpread =
-    0.6;  // of a window across its stripes, in spacings; two stripes give 0.5, three 0.82
-constexpr double kRoughSpacings = 0.75;  // reach of a point where there is no plane
-constexpr std::size_t kCrowd = 512;      // points of a cell that are looked at for the nearest one
-constexpr double kWithinCell = 1e-6;     // from its borders a cell is told without doubt; mm
-
 double cell_size(const Sampling& sampling) {
-  return std::max({kLeastCell, kCellSpacings * sampling.spacing, kCellSteps * sampling.step});
+  return std::max({kBackground.least_cell, kBackground.cell_spacings * sampling.spacing,
+                   kBackground.cell_steps * sampling.step});
 }
 
 }  // namespace
@@ -51,7 +44,7 @@ SurfaceBackground::SurfaceBackground(const ScanCloud& cloud, double distance_mm)
     surface.centroid = fit.centroid;
     surface.plane = fit.plane;
     surface.is_plane = window.weight() >= 6 && fit.rms <= distance_ / 2 &&
-                       fit.spread[0] >= kLeastSpread * sampling_.spacing;
+                       fit.spread[0] >= kBackground.least_spread * sampling_.spacing;
   }
   surroundings_.reserve(surfaces_.size());
   for (int i = 0; i < grid_.cell_count(); ++i)
@@ -88,13 +81,13 @@ bool SurfaceBackground::nearest_contains(const Eigen::Vector3d& point,
       nearest = i, least = squared;
   const Surface& surface = surfaces_[nearest];
   if (surface.is_plane) return std::abs(surface.plane.signed_distance(point)) <= distance_;
-  const double reach = std::max(distance_, kRoughSpacings * sampling_.spacing);
+  const double reach = std::max(distance_, kBackground.rough_spacings * sampling_.spacing);
   const auto reaches = [&](int i) {
     const Eigen::Vector3d to_box =
         (surfaces_[i].low - point).cwiseMax(point - surfaces_[i].high).cwiseMax(0.0);
     if (to_box.squaredNorm() > reach * reach) return false;
     const auto inside = grid_.points_in(i);
-    const std::size_t step = 1 + inside.size() / kCrowd;
+    const std::size_t step = 1 + inside.size() / kBackground.nearest_crowd;
     for (std::size_t j = 0; j < inside.size(); j += step)
       if ((grid_.points()[inside[j]] - point).squaredNorm() <= reach * reach) return true;
     return false;
@@ -123,7 +116,7 @@ void SurfaceBackground::classify(std::span<const Eigen::Vector3d> points,
   Place *here = &places[0], *before = &places[1];
   const auto is_here = [&](const Eigen::Vector3d& point) {
     const Eigen::Vector3d off = (point - here->centre).cwiseAbs();
-    return std::max(std::max(off.x(), off.y()), off.z()) < half - kWithinCell;
+    return std::max(std::max(off.x(), off.y()), off.z()) < half - kBackground.within_cell;
   };
   const auto go_to = [&](const Eigen::Vector3d& point) {
     const NeighbourGrid::Cell cell = grid_.cell_of(point);

@@ -1,7 +1,6 @@
 #include "services/seam_finding/cloud/connected_components.hpp"
 
 #include <algorithm>
-#include <numeric>
 
 namespace arcstart::seam_finding {
 
@@ -49,13 +48,6 @@ void Pieces::keep_largest(std::vector<int>& chosen) {
   join(chosen);
   if (size_ == static_cast<int>(chosen.size())) return;
   std::erase_if(chosen, [&](int point) { return pieces_[cells_[point]] != largest_; });
-}
-
-std::vector<int> largest_component(const std::vector<Eigen::Vector3d>& points, double cell_mm) {
-  std::vector<int> chosen(points.size());
-  std::iota(chosen.begin(), chosen.end(), 0);
-  Pieces(NeighbourGrid(points, cell_mm)).keep_largest(chosen);
-  return chosen;
 }
 
 }  // namespace arcstart::seam_finding

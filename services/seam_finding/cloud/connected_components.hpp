@@ -32,7 +32,4 @@ class Pieces {
   int largest_ = -1, size_ = 0;
 };
 
-// Positions in `points` of the largest piece, rising.
-std::vector<int> largest_component(const std::vector<Eigen::Vector3d>& points, double cell_mm);
-
 }  // namespace arcstart::seam_finding

@@ -3,10 +3,10 @@
 #include <algorithm>
 #include <cmath>
 
+#include "services/seam_finding/cloud/constants.hpp"
+
 namespace arcstart::seam_finding {
 namespace {
-
-constexpr double kStep = 1.5;  // mm
 
 bool same_segment(const ScanCloud& scan, int a, int b) {
   return scan.origins[a].segment == scan.origins[b].segment &&
@@ -27,7 +27,7 @@ void downsample(const ScanCloud& scan, DownsampledCloud& downsampled) {
     for (int i = stripe.first; i < end; ++i, first = last) {
       last = i + 1 == end || origins[i].segment != origins[i + 1].segment;
       if (!first && !last && !origins[i].segment_end &&
-          (points[i] - *kept).squaredNorm() < kStep * kStep)
+          (points[i] - *kept).squaredNorm() < kCloud.thinned_step * kCloud.thinned_step)
         continue;
       kept = &points[i];
       few.points.push_back(*kept);

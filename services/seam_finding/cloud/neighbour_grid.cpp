@@ -4,18 +4,15 @@
 #include <array>
 #include <cmath>
 
+#include "services/seam_finding/cloud/constants.hpp"
+
 namespace arcstart::seam_finding {
 namespace {
 
-constexpr int kBias = 1 << 20;  // cells on either side of the origin; 21 bits an axis
-constexpr std::size_t kCrowd = 256;
-constexpr std::size_t kFirstSlots = 256;
-constexpr double kBoxCells = 16;  // of a box for each point
-
 // std::floor is a call of a library where the processor is not known to have an instruction for it.
 int floor_within_range(double value) {
-  if (!(value >= -kBias)) return -kBias;  // also what is no number
-  if (value >= kBias - 1) return kBias - 1;
+  if (!(value >= -kCloud.cell_bias)) return -kCloud.cell_bias;  // also what is no number
+  if (value >= kCloud.cell_bias - 1) return kCloud.cell_bias - 1;
   const int truncated = static_cast<int>(value);
   return truncated - (value < truncated);
 }
@@ -31,7 +28,8 @@ std::size_t hash(std::uint64_t key) {
 std::uint64_t NeighbourGrid::key_of(const Cell& cell) {
   std::uint64_t key = 0;
   for (int axis = 0; axis < 3; ++axis)
-    key = key << 21 | static_cast<std::uint64_t>(std::clamp(cell[axis] + kBias, 0, 2 * kBias - 1));
+    key = key << 21 | static_cast<std::uint64_t>(
+                          std::clamp(cell[axis] + kCloud.cell_bias, 0, 2 * kCloud.cell_bias - 1));
   return key;
 }
 
@@ -54,7 +52,7 @@ NeighbourGrid::NeighbourGrid(const std::vector<Eigen::Vector3d>& points, double 
   for (const Cell& cell : cells) low_ = low_.cwiseMin(cell), high = high.cwiseMax(cell);
   size_ = high - low_ + Cell::Ones();
   std::vector<int> cell_of_point(points.size());
-  if (size_.cast<double>().prod() <= kBoxCells * static_cast<double>(points.size() + 64))
+  if (size_.cast<double>().prod() <= kCloud.box_cells * static_cast<double>(points.size() + 64))
     sort_cells_in_box(cells, cell_of_point);
   else
     sort_cells(cells, cell_of_point);
@@ -84,7 +82,7 @@ void NeighbourGrid::sort_cells_in_box(const std::vector<Cell>& cells,
 // Points mostly come in the order of a stripe, many of one cell in a row: a cell is looked up once
 // for a run of them. Sorted are the cells alone, the points then counted into them.
 void NeighbourGrid::sort_cells(const std::vector<Cell>& cells, std::vector<int>& cell_of_point) {
-  slots_.assign(kFirstSlots, -1);
+  slots_.assign(kCloud.first_slots, -1);
   std::vector<int> counts;
   for (std::size_t i = 0; i < cells.size(); ++i) {
     const std::uint64_t key = key_of(cells[i]);
@@ -151,8 +149,8 @@ NeighbourGrid::Adjacency NeighbourGrid::adjacency() const {
     const Cell middle = cell(i);
     for (int column = 0; column < 9; ++column) {
       const int x = middle.x() + column / 3 - 1, y = middle.y() + column % 3 - 1;
-      if (std::min(x, y) < -kBias || std::max(x, y) >= kBias) continue;
-      const std::uint64_t first = key_of({x, y, std::max(middle.z() - 1, -kBias)});
+      if (std::min(x, y) < -kCloud.cell_bias || std::max(x, y) >= kCloud.cell_bias) continue;
+      const std::uint64_t first = key_of({x, y, std::max(middle.z() - 1, -kCloud.cell_bias)});
       const std::uint64_t last = key_of({x, y, middle.z() + 1});
       std::size_t& place = places[column];
       while (place < keys_.size() && keys_[place] < first) ++place;
@@ -173,9 +171,10 @@ std::vector<int> NeighbourGrid::cells_of_points() const {
 
 NeighbourGrid::Cell NeighbourGrid::cell(int index) const {
   const std::uint64_t key = keys_[index];
-  const std::uint64_t mask = 2 * kBias - 1;
-  return {static_cast<int>(key >> 42 & mask) - kBias, static_cast<int>(key >> 21 & mask) - kBias,
-          static_cast<int>(key & mask) - kBias};
+  const std::uint64_t mask = 2 * kCloud.cell_bias - 1;
+  return {static_cast<int>(key >> 42 & mask) - kCloud.cell_bias,
+          static_cast<int>(key >> 21 & mask) - kCloud.cell_bias,
+          static_cast<int>(key & mask) - kCloud.cell_bias};
 }
 
 std::span<const int> NeighbourGrid::points_in(int index) const {
@@ -200,7 +199,7 @@ void NeighbourGrid::nearest_distances(int point, int k, std::span<const int> aro
   const Eigen::Vector3d& centre = points_[point];
   for (const int cell : around) {
     const auto inside = points_in(cell);
-    const std::size_t step = 1 + inside.size() / kCrowd;
+    const std::size_t step = 1 + inside.size() / kCloud.crowd;
     for (std::size_t i = 0; i < inside.size(); i += step) {
       if (inside[i] == point) continue;
       const double squared = (points_[inside[i]] - centre).squaredNorm();

@@ -3,13 +3,11 @@
 #include <cmath>
 #include <numeric>
 
+#include "services/seam_finding/cloud/constants.hpp"
 #include "services/seam_finding/cloud/neighbour_grid.hpp"
 
 namespace arcstart::seam_finding {
 namespace {
-
-constexpr std::size_t kAskedAll = 4096;  // so many points all tell what is usual
-constexpr std::size_t kAsked = 512;      // of more so many, evenly taken
 
 double mean_of(const std::vector<double>& values) {
   return std::accumulate(values.begin(), values.end(), 0.0) / static_cast<double>(values.size());
@@ -38,7 +36,7 @@ std::vector<int> without_outliers(const ScanCloud& cloud, const std::vector<int>
   std::vector<Eigen::Vector3d> positions;
   positions.reserve(points.size());
   for (const int i : points) positions.push_back(cloud.points[i]);
-  const bool many = points.size() > kAskedAll;
+  const bool many = points.size() > kCloud.sample;
   const NeighbourGrid grid(positions, std::max(1e-3, (many ? 1.0 : 1.5) * spacing));
   const NeighbourGrid::Adjacency adjacency = grid.adjacency();
   const std::vector<int> cells = grid.cells_of_points();
@@ -46,7 +44,7 @@ std::vector<int> without_outliers(const ScanCloud& cloud, const std::vector<int>
   const auto ask = [&](std::size_t i) {
     grid.nearest_distances(static_cast<int>(i), neighbours, adjacency.of(cells[i]), distances);
   };
-  const std::size_t step = many ? points.size() / kAsked : 1;
+  const std::size_t step = many ? points.size() / kCloud.outlier_sample : 1;
   std::vector<double> means;  // where all are asked
   double sum = 0, squares = 0;
   int counted = 0;

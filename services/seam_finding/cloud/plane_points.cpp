@@ -4,6 +4,8 @@
 #include <array>
 #include <cmath>
 
+#include "services/seam_finding/cloud/constants.hpp"
+
 namespace arcstart::seam_finding {
 
 PlanePoints::PlanePoints(const std::vector<Eigen::Vector3d>& points) {
@@ -36,13 +38,12 @@ int PlanePoints::count_near(const Plane& plane, double tolerance, std::size_t fi
 
 // In blocks: all distances of one side by side, then what is near of it.
 void PlanePoints::find_near(const Plane& plane, double tolerance, std::vector<int>& near) const {
-  constexpr std::size_t kBlock = 64;
   const Coefficients c = from_origin(plane, tolerance);
   near.clear();
-  std::array<float, kBlock> off;
-  std::array<int, kBlock> found;
-  for (std::size_t first = 0; first < size(); first += kBlock) {
-    const std::size_t count = std::min(kBlock, size() - first);
+  std::array<float, kCloud.distance_block> off;
+  std::array<int, kCloud.distance_block> found;
+  for (std::size_t first = 0; first < size(); first += kCloud.distance_block) {
+    const std::size_t count = std::min(kCloud.distance_block, size() - first);
     const float *x = &x_[first], *y = &y_[first], *z = &z_[first];
     for (std::size_t i = 0; i < count; ++i)
       off[i] = std::abs(c.x * x[i] + c.y * y[i] + c.z * z[i] + c.offset);

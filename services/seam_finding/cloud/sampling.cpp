@@ -3,28 +3,13 @@
 #include <algorithm>
 #include <cmath>
 
+#include "services/seam_finding/cloud/constants.hpp"
 #include "services/seam_finding/cloud/neighbour_grid.hpp"
+#include "services/seam_finding/fit/order_statistics.hpp"
 #include "services/seam_finding/fit/plane_fit.hpp"
 
 namespace arcstart::seam_finding {
 namespace {
-
-constexpr int kSamples = 400;      // places where the points' distance is measured
-constexpr int kNoisePlaces = 200;  // and their noise
-constexpr int kNeighbours = 8;
-constexpr int kMostSteps = 2048;  // of a larger cloud so many serve
-// Points that serve, of a cloud of more than twice as many; one without stripes may show its plates
-// here and there alone.
-constexpr int kNeighbourhoods = 2500, kLooseNeighbourhoods = 16384;
-constexpr std::size_t kCrowd = 64;  // points of a cell that are looked at for the noise
-
-double percentile(std::vector<double>& values, double share) {
-  if (values.empty()) return 0;
-  const auto middle =
-      values.begin() + static_cast<std::ptrdiff_t>(share * static_cast<double>(values.size() - 1));
-  std::nth_element(values.begin(), middle, values.end());
-  return *middle;
-}
 
 // The median way between neighbouring stripes, where the tool moves: it may stand still at the
 // scan's begin and end.
@@ -35,15 +20,15 @@ double stripe_spacing(const ScanCloud& cloud) {
     if (a.seen == ScanStripe::Seen::kSeen && b.seen == ScanStripe::Seen::kSeen)
       steps.push_back((b.tool_position - a.tool_position).norm());
   }
-  const double fast = percentile(steps, 0.9);
+  const double fast = quantile(steps, 0.9);
   std::erase_if(steps, [&](double step) { return step < 0.3 * fast; });
-  return percentile(steps, 0.5);
+  return quantile(steps, 0.5);
 }
 
 // Between neighbours along a stripe, evenly taken where there are many.
 std::vector<double> stripe_steps(const ScanCloud& cloud) {
   std::vector<double> steps;
-  const int every = 1 + cloud.size() / kMostSteps;
+  const int every = 1 + cloud.size() / kCloud.small_sample;
   for (int i = 1; i < cloud.size(); i += every)
     if (cloud.origins[i].stripe == cloud.origins[i - 1].stripe &&
         cloud.origins[i].segment == cloud.origins[i - 1].segment)
@@ -61,14 +46,14 @@ double point_spacing(const ScanCloud& cloud) {
   for (int attempt = 0; attempt < 4 && cell > 1e-6; ++attempt, cell *= 2) {
     const NeighbourGrid grid(cloud.points, cell);
     found.clear();
-    const int step = std::max(1, cloud.size() / kSamples);
+    const int step = std::max(1, cloud.size() / kCloud.spacing_places);
     for (int i = 0; i < cloud.size(); i += step) {
-      grid.nearest_distances(i, kNeighbours, distances);
-      if (distances.size() == kNeighbours) found.push_back(distances.back());
+      grid.nearest_distances(i, kCloud.neighbours, distances);
+      if (distances.size() == kCloud.neighbours) found.push_back(distances.back());
     }
     if (2 * found.size() * static_cast<std::size_t>(step) > cloud.points.size()) break;
   }
-  return percentile(found, 0.5) / std::sqrt(2.0);
+  return quantile(found, 0.5) / std::sqrt(2.0);
 }
 
 // The typical distance of points from the plane through their neighbourhood. Edges and corners
@@ -76,19 +61,19 @@ double point_spacing(const ScanCloud& cloud) {
 double surface_noise(const ScanCloud& cloud, double radius) {
   if (!(radius > 0)) return 0;
   std::vector<Eigen::Vector3d> points;
-  const int enough = cloud.organised() ? kNeighbourhoods : kLooseNeighbourhoods;
+  const int enough = cloud.organised() ? kCloud.noise_points : kCloud.loose_noise_points;
   const int every = cloud.size() <= 2 * enough ? 1 : cloud.size() / enough;
   points.reserve(static_cast<std::size_t>(cloud.size() / every + 1));
   for (int i = 0; i < cloud.size(); i += every) points.push_back(cloud.points[i]);
   const NeighbourGrid grid(points, radius);
   std::vector<double> found;
   for (std::size_t i = 0; i < points.size();
-       i += std::max<std::size_t>(1, points.size() / kNoisePlaces)) {
+       i += std::max<std::size_t>(1, points.size() / kCloud.noise_places)) {
     const Eigen::Vector3d& centre = points[i];
     PlaneSums sums(centre);
     grid.for_each_around(grid.cell_of(centre), [&](int cell) {
       const auto inside = grid.points_in(cell);
-      const std::size_t stride = 1 + inside.size() / kCrowd;
+      const std::size_t stride = 1 + inside.size() / kCloud.noise_crowd;
       for (std::size_t j = 0; j < inside.size(); j += stride)
         if ((points[inside[j]] - centre).squaredNorm() < radius * radius)
           sums.add(points[inside[j]]);
@@ -98,7 +83,7 @@ double surface_noise(const ScanCloud& cloud, double radius) {
     if (fit.spread[0] > 0.2 * radius)
       found.push_back(fit.rms * std::sqrt(sums.weight() / (sums.weight() - 3)));
   }
-  return percentile(found, 0.35);
+  return quantile(found, 0.35);
 }
 
 }  // namespace
@@ -109,8 +94,8 @@ Sampling measure_sampling(const ScanCloud& cloud) {
   sampling.spacing = cloud.organised() ? stripe_spacing(cloud) : point_spacing(cloud);
   if (cloud.organised()) {
     std::vector<double> steps = stripe_steps(cloud);
-    sampling.step = percentile(steps, 0.9);
-    sampling.pitch = percentile(steps, 0.5);
+    sampling.step = quantile(steps, 0.9);
+    sampling.pitch = quantile(steps, 0.5);
   }
   sampling.noise = surface_noise(cloud, 3 * sampling.spacing);
   return sampling;

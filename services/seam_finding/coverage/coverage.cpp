@@ -4,15 +4,12 @@
 #include <cmath>
 #include <functional>
 
+#include "services/seam_finding/coverage/constants.hpp"
 #include "services/seam_finding/coverage/stations.hpp"
 #include "services/seam_finding/visibility/occlusion.hpp"
 
 namespace arcstart::seam_finding {
 namespace {
-
-constexpr double kBridge = 20;      // a seam goes on behind an interruption no longer than this; mm
-constexpr double kLoneGap = 2.5;    // stripe spacings
-constexpr double kSamePlace = 0.3;  // of the spacing: the tool stood still
 
 // An uninterrupted part of the seam.
 struct Stretch {
@@ -35,7 +32,7 @@ std::vector<Stretch> stretches(const Stations& all, double spacing) {
     if (!open) {
       found.push_back({i, i, 1, spacing});
       counted_at = stations[i].along;
-    } else if (stations[i].along - counted_at > kSamePlace * spacing) {
+    } else if (stations[i].along - counted_at > kCoverage.same_place * spacing) {
       found.back().covered += stations[i].along - counted_at;
       ++found.back().stripes;
       counted_at = stations[i].along;
@@ -59,7 +56,7 @@ Stretch longest(const std::vector<Stretch>& found, const std::vector<Station>& s
   Stretch whole = *best;
   const auto joins = [&](const Stretch& piece, int from, int to) {
     const double gap = stations[to].along - stations[from].along;
-    return gap <= (piece.stripes < 2 ? kLoneGap * scales.spacing : kBridge) ||
+    return gap <= (piece.stripes < 2 ? kCoverage.lone_gap * scales.spacing : kCoverage.bridge) ||
            (hidden && hidden(from, to));
   };
   const auto take = [&](const Stretch& piece) {

@@ -3,13 +3,12 @@
 #include <algorithm>
 #include <cmath>
 
+#include "services/seam_finding/coverage/constants.hpp"
 #include "services/seam_finding/coverage/stations.hpp"
+#include "services/seam_finding/fit/order_statistics.hpp"
 
 namespace arcstart::seam_finding {
 namespace {
-
-constexpr double kStepMargin = 1.2;  // steps
-constexpr double kLeastSlack = 1;    // a stripe's end is lost before an edge; mm
 
 // A stripe that runs on to a plate's border has its nearest point, one more than the tolerance
 // away, within a step between points; one that leaves the plate before has not.
@@ -22,9 +21,9 @@ double running_on(const ScanCloud& cloud, const JointPlate& plate, double tolera
       steps.push_back((cloud.points[b] - cloud.points[a]).norm());
   }
   if (steps.empty()) return plate.contact;
-  const auto high = steps.begin() + static_cast<std::ptrdiff_t>(9 * (steps.size() - 1) / 10);
-  std::nth_element(steps.begin(), high, steps.end());
-  return std::min(plate.contact, tolerance + std::max(kLeastSlack, kStepMargin * *high));
+  return std::min(
+      plate.contact,
+      tolerance + std::max(kCoverage.least_slack, kCoverage.steps_to_edge * quantile(steps, 0.9)));
 }
 
 }  // namespace

@@ -5,13 +5,12 @@
 #include <limits>
 #include <optional>
 
+#include "services/seam_finding/coverage/constants.hpp"
+#include "services/seam_finding/fit/order_statistics.hpp"
+
 namespace arcstart::seam_finding {
 namespace {
 
-constexpr double kSlantReach = 15;    // points so near the line say how the stripes cross it; mm
-constexpr double kSteepest = 3;       // slant, mm along the line for each mm away from it
-constexpr double kStepMargin = 2.15;  // a point may be missing; steps
-constexpr int kEmptyInARow = 3;  // so many stripes in a row that show nothing: nothing is there
 constexpr double kInfinity = std::numeric_limits<double>::infinity();
 
 // What one stripe shows of one plate beside the line.
@@ -35,7 +34,8 @@ Sights sights_of(const ScanCloud& cloud, const JointPlate& plate, const JointPla
   sights.away.reserve(plate.points.size());
   for (const int i : plate.points) {
     const double r = away.dot(cloud.points[i] - line.point);
-    if (r <= tolerance || r > kSlantReach) continue;  // either plate's, or behind the other
+    if (r <= tolerance || r > kCoverage.slant_reach)
+      continue;  // either plate's, or behind the other
     const double t = line.along(cloud.points[i]);
     sights.away.push_back(r);
     Sight& s = sights.stripes[cloud.origins[i].stripe];
@@ -55,7 +55,7 @@ double slant_of(const Sights& sights) {
     rr += s.rr - s.r * s.r / s.count;
     rt += s.rt - s.r * s.t / s.count;
   }
-  return rr > 1 ? std::clamp(rt / rr, -kSteepest, kSteepest) : 0;
+  return rr > 1 ? std::clamp(rt / rr, -kCoverage.steepest, kCoverage.steepest) : 0;
 }
 
 // How far from the line a plate's nearest point can be where the stripe runs on to the line: points
@@ -71,9 +71,7 @@ double near_limit(Sights& sights, double tolerance, double contact) {
       if (first + 1 != last) steps.push_back(*(first + 1) - *first);
   }
   if (steps.empty()) return contact;
-  const auto high = steps.begin() + static_cast<std::ptrdiff_t>(9 * (steps.size() - 1) / 10);
-  std::nth_element(steps.begin(), high, steps.end());
-  return std::min(contact, tolerance + kStepMargin * *high);
+  return std::min(contact, tolerance + kCoverage.steps_to_line * quantile(steps, 0.9));
 }
 
 using Places = std::vector<std::optional<double>>;
@@ -128,7 +126,7 @@ void mark_unknown(const ScanCloud& cloud, std::vector<Station>& stations) {
   for (int k = 0; k < count;) {
     int end = k;
     while (end < count && cloud.stripes[end].seen == ScanStripe::Seen::kEmpty) ++end;
-    for (int i = k; i < end; ++i) stations[i].known = end - k >= kEmptyInARow;
+    for (int i = k; i < end; ++i) stations[i].known = end - k >= kModel.stripes_in_a_row;
     if (end < count) stations[end].known = cloud.stripes[end].seen == ScanStripe::Seen::kSeen;
     k = end + 1;
   }

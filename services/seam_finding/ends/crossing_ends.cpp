@@ -5,6 +5,7 @@
 #include <limits>
 #include <optional>
 
+#include "services/seam_finding/ends/constants.hpp"
 #include "services/seam_finding/ends/edge_crossing.hpp"
 #include "services/seam_finding/ends/end_interval.hpp"
 #include "services/seam_finding/ends/plate_end.hpp"
@@ -13,16 +14,6 @@
 
 namespace arcstart::seam_finding {
 namespace {
-
-constexpr double kNearSeam = 3, kBeside = 25;  // from the seam in a plate; mm
-constexpr double kStandsBefore = 3;            // mm
-constexpr double kFlushWithin = 0.6;           // mm
-constexpr double kSameEdge = 2.5;              // standard deviations of their difference
-constexpr double kExtent = 0.25;               // px: how well a stripe's last light is known
-constexpr double kUnseen = 2;  // a stripe that leaves a plate so near may not show it; of `near`
-constexpr double kBeyond = 3;  // stripe spacings
-constexpr double kBesideEdge = 3;  // of an edge's places, the plate's own; mm
-constexpr double kFartherOut = 5;  // an edge than a stripe that tells nothing of what is there; mm
 
 // Of the stripes that show the other plate, by which their crossings are known.
 StripeCrossings crossings_of(const ScanCloud& cloud, const Stations& stations, int plate) {
@@ -39,7 +30,8 @@ StripeCrossings crossings_of(const ScanCloud& cloud, const Stations& stations, i
 // is seen past a plate speaks against a lone one alone.
 bool possible(const PlateEdge& edge, const PlateExtent& extent, double outward) {
   const double place = outward * edge.along,
-               allowed = kSameEdge * std::hypot(std::sqrt(edge.variance), kExtent * edge.pixel);
+               allowed = kEnds.same_edge *
+                         std::hypot(std::sqrt(edge.variance), kEnds.light_extent * edge.pixel);
   return place > extent.on - allowed && (edge.stripes > 1 || place < extent.past + allowed);
 }
 
@@ -47,7 +39,7 @@ bool possible(const PlateEdge& edge, const PlateExtent& extent, double outward) 
 bool ends_early(const PlateEdge& edge, const PlateEdge& other, double outward) {
   return edge.stripes == 1 && other.stripes > 1 && !other.occluded &&
          outward * (other.along - edge.along) >
-             kSameEdge * std::sqrt(edge.variance + other.variance);
+             kEnds.same_edge * std::sqrt(edge.variance + other.variance);
 }
 
 // Of the stripe right beyond the seam's end that no longer shows a plate: whether the plate is seen
@@ -68,13 +60,13 @@ EndVisibility seen_beyond(const ScanCloud& cloud, const Stations& stations,
     const Eigen::Vector3d away = away_from_seam(plates[j], plates[1 - j]);
     for (int i = stripe.first; i < stripe.first + stripe.count; ++i) {
       const double r = away.dot(cloud.points[i] - line.point);
-      if (r < kNearSeam || r > kBeside ||
+      if (r < kVisibility.near_seam || r > kModel.beside_seam ||
           std::abs(plates[1 - j].plane.signed_distance(cloud.points[i])) <= tolerance)
         continue;
       // Something stands before the plate, or it is there and was measured badly.
       const double height = plates[j].plane.signed_distance(cloud.points[i]);
-      if (height > kStandsBefore) return EndVisibility::kHidden;
-      if (height > -kStandsBefore) visibility = EndVisibility::kNotDetermined;
+      if (height > kEnds.hides) return EndVisibility::kHidden;
+      if (height > -kEnds.hides) visibility = EndVisibility::kNotDetermined;
     }
   }
   return visibility;
@@ -140,7 +132,7 @@ class EndFinder {
     const double outer = intervals_[j].outer + outward_ * std::max(margin, width);
     window.from = std::min(inner, outer);
     window.to = std::max(inner, outer);
-    window.beyond = kBeyond * width;
+    window.beyond = kEnds.beyond * width;
     edges_[j] = find_edge(cloud_, stripes_[j], side_, window, scales_, settings_);
   }
 
@@ -148,7 +140,8 @@ class EndFinder {
   void compare_with_extent(int j, double along) {
     if (!edges_[j] && intervals_[j].runs_on) {
       // So it says up to the next stripe; the other plate may end much farther out.
-      if (!edges_[1 - j] || outward_ * (edges_[1 - j]->along - intervals_[j].outer) < kFartherOut)
+      if (!edges_[1 - j] ||
+          outward_ * (edges_[1 - j]->along - intervals_[j].outer) < kEnds.farther_out)
         return;
       intervals_[j] = {intervals_[j].inner, outward_ * std::numeric_limits<double>::infinity()};
     }
@@ -160,7 +153,7 @@ class EndFinder {
       // thing.
       PlateExtent beside = extent;
       beside.on = seen_on_plate(cloud_, stripes_[j], side_, along, scales_, crossings,
-                                edges_[j]->clear_to + kBesideEdge);
+                                edges_[j]->clear_to + kEnds.beside_edge);
       if (possible(*edges_[j], beside, outward_)) return;
     }
     extent = plate_extent(cloud_, stripes_[j], side_, along, scales_, crossings);
@@ -172,16 +165,16 @@ class EndFinder {
     // Where stripes cross the one plate's edge, they may leave this one unseen.
     const double slant = edges_[1 - j] ? std::max(0.0, outward_ * stations_.slant[j]) : 0;
     if (!edges_[j])
-      narrow(intervals_[j], extent, unsure_of(stations_, j), kUnseen * stations_.near[j] * slant,
-             outward_);
+      narrow(intervals_[j], extent, unsure_of(stations_, j),
+             kEnds.unseen * stations_.near[j] * slant, outward_);
   }
 
   // Of single stripes, the one that agrees with the other plate's edge.
   void seek_flush_edge(int j) {
     if (!edges_[0] || !edges_[1] || edges_[j]->stripes > 1 || edges_[1 - j]->stripes < 2) return;
     windows_[j].beyond = 0;
-    windows_[j].from = edges_[1 - j]->along - kFlushWithin;
-    windows_[j].to = edges_[1 - j]->along + kFlushWithin;
+    windows_[j].from = edges_[1 - j]->along - kEnds.flush_within;
+    windows_[j].to = edges_[1 - j]->along + kEnds.flush_within;
     if (const auto flush = find_edge(cloud_, stripes_[j], side_, windows_[j], scales_, settings_))
       edges_[j] = flush;
   }
@@ -223,7 +216,8 @@ class EndFinder {
   // How far both plates are seen to reach, along the line, where that is behind something that
   // hides the seam; nothing where it is not, or no farther than `end` by more than `width`.
   std::optional<double> both_reach(double end, double width) const {
-    if (!stands_before(cloud_, plates_, line(), stations_, end, kBeside)) return std::nullopt;
+    if (!stands_before(cloud_, plates_, line(), stations_, end, kModel.beside_seam))
+      return std::nullopt;
     double reach = std::numeric_limits<double>::infinity();
     for (int j = 0; j < 2; ++j)
       reach = std::min(reach, seen_on_plate(cloud_, stripes_[j], side_, end, scales_,

@@ -3,31 +3,18 @@
 #include <algorithm>
 #include <cmath>
 
+#include "services/seam_finding/ends/constants.hpp"
+#include "services/seam_finding/fit/order_statistics.hpp"
+
 namespace arcstart::seam_finding {
 namespace {
-
-// A stripe's last centre lies before the edge by `shortening_px`, square to it: by so much more or
-// less, px. The more, the flatter a stripe crosses the edge: its light fades slowly then.
-constexpr double kEndDeviation = 0.2;
-constexpr double kFlatCrossing = 0.2;  // along the seam for each mm of the stripe
-constexpr double kFlatDeviation = 8;   // px for each so much less
-constexpr double kOutlier = 3;         // standard deviations
-constexpr double kLeastDrop = 0.5;     // between points on a cut; mm
-constexpr int kMostOnCut = 20;         // points
-constexpr double kCutSlant = 0.15;     // of a cut, mm along the seam for each mm of its depth
-constexpr double kCutNoise = 0.07;     // of a cut's place along the seam; mm
-constexpr double kBeam = 0.5;  // of a point's noise across its surface what it is along the seam
-constexpr double kChord = 3;   // over which a stripe's direction is taken; mm
-constexpr std::size_t kSteps = 64;    // tell the usual one
-constexpr double kLeastSight = 0.1;   // sine of the angle between a line of sight and a plate
-constexpr double kLeastSlant = 0.05;  // of a stripe, mm along the seam for each mm of its length
 
 // Which way a stripe runs there, out of the plate; from points far enough apart for their noise.
 Eigen::Vector3d direction_at_end(const ScanCloud& cloud, const std::vector<int>& run,
                                  bool at_back) {
   const Eigen::Vector3d& last = cloud.points[at_back ? run.back() : run.front()];
   Eigen::Vector3d way = Eigen::Vector3d::Zero();
-  for (std::size_t i = 1; i < run.size() && way.norm() < kChord; ++i)
+  for (std::size_t i = 1; i < run.size() && way.norm() < kEnds.direction_base; ++i)
     way = last - cloud.points[at_back ? run[run.size() - 1 - i] : run[i]];
   return way.norm() > 1e-6 ? way.normalized() : way;
 }
@@ -35,11 +22,9 @@ Eigen::Vector3d direction_at_end(const ScanCloud& cloud, const std::vector<int>&
 // The usual way between the points that are left of a stripe.
 double thinned_step(const ScanCloud& cloud, const std::vector<int>& run) {
   std::vector<double> steps;
-  for (std::size_t i = 1; i < run.size(); i += 1 + run.size() / kSteps)
+  for (std::size_t i = 1; i < run.size(); i += 1 + run.size() / kEnds.step_sample)
     steps.push_back((cloud.points[run[i]] - cloud.points[run[i - 1]]).norm());
-  const auto middle = steps.begin() + static_cast<std::ptrdiff_t>(steps.size() / 2);
-  std::nth_element(steps.begin(), middle, steps.end());
-  return *middle;
+  return median(steps);
 }
 
 // Where along the seam the cut is over whose edge the stripe turns, from its next points: a cut is
@@ -48,7 +33,7 @@ std::optional<double> cut_beyond(const ScanCloud& cloud, const JointPlate& plate
                                  int last, bool at_back, const Scales& scales) {
   const int step = at_back ? 1 : -1;
   double sum = 0, first_along = 0, first_depth = 0;
-  for (int k = 1; k <= kMostOnCut; ++k) {
+  for (int k = 1; k <= kEnds.most_on_cut; ++k) {
     const int i = last + k * step;
     if (i < 0 || i >= cloud.size() || cloud.origins[i].stripe != cloud.origins[last].stripe ||
         cloud.origins[i].segment != cloud.origins[last].segment)
@@ -58,8 +43,10 @@ std::optional<double> cut_beyond(const ScanCloud& cloud, const JointPlate& plate
     if (k == 1) first_along = along, first_depth = depth;
     sum += along;
     const double drop = depth - first_depth;
-    if (drop < kLeastDrop) continue;
-    if (std::abs(along - first_along) > kCutSlant * drop + kOutlier * kBeam * scales.noise) break;
+    if (drop < kEnds.least_drop) continue;
+    if (std::abs(along - first_along) >
+        kEnds.cut_slant * drop + kFit.outlier * kVisibility.beam * scales.noise)
+      break;
     return sum / k;
   }
   return std::nullopt;
@@ -72,7 +59,7 @@ std::optional<Eigen::Vector3d> on_plate(const ScanCloud& cloud, const JointPlate
   const Eigen::Vector3d& eye = cloud.seen_from(i);
   const Eigen::Vector3d sight = cloud.points[i] - eye;
   const double toward = -plate.plane.normal.dot(sight.normalized());
-  if (toward < kLeastSight) return std::nullopt;
+  if (toward < kVisibility.least_sight) return std::nullopt;
   return cloud.points[i] +
          sight.normalized() * (plate.plane.signed_distance(cloud.points[i]) / toward);
 }
@@ -88,7 +75,7 @@ double pixel_along(const ScanCloud& cloud, int end, int next, const Line& line,
   const double angle =
       std::atan2(sight.cross(beside).norm(), sight.dot(beside)) * cloud.origins[end].step / way;
   const double across = std::abs(sight.cross(away).normalized().dot(line.direction));
-  return across > kLeastSight ? angle * sight.norm() / across : 0;
+  return across > kVisibility.least_sight ? angle * sight.norm() / across : 0;
 }
 
 }  // namespace
@@ -116,7 +103,7 @@ std::optional<EdgeCrossing> edge_crossing(const ScanCloud& cloud, const std::vec
 
   const Eigen::Vector3d direction = direction_at_end(cloud, run, at_back);
   const double slant = std::abs(direction.dot(line.direction));
-  if (slant < kLeastSlant) return std::nullopt;
+  if (slant < kEnds.least_slant) return std::nullopt;
   const double outward = side == SeamSide::kEnd ? 1 : -1;
   EdgeCrossing place;
   if (cloud.origins[last].segment_end) {
@@ -127,8 +114,9 @@ std::optional<EdgeCrossing> edge_crossing(const ScanCloud& cloud, const std::vec
     place.pixel = pixel_along(cloud, last, inner, line, stripes.away);
     place.along = line.along(*point) + outward * settings.edge_shortening_px * place.pixel;
     place.away = stripes.away.dot(*point - line.point);
-    const double end = kEndDeviation + kFlatDeviation * std::max(0.0, kFlatCrossing - slant);
-    place.deviation = std::hypot(end * place.pixel, kBeam * scales.noise);
+    const double end =
+        kEnds.light_deviation + kEnds.flat_deviation * std::max(0.0, kEnds.flat_crossing - slant);
+    place.deviation = std::hypot(end * place.pixel, kVisibility.beam * scales.noise);
     place.sharp = true;
   } else {
     // A segment that runs on turns at the plate's edge into the cut, if the cut is in sight; else
@@ -138,8 +126,8 @@ std::optional<EdgeCrossing> edge_crossing(const ScanCloud& cloud, const std::vec
     const Eigen::Vector3d point = cloud.points[last] + 0.5 * step * direction;
     place.along = cut ? *cut : line.along(point);
     place.away = stripes.away.dot(point - line.point);
-    place.deviation =
-        cut ? std::hypot(kCutNoise, kBeam * scales.noise) : slant * step / std::sqrt(12.0);
+    place.deviation = cut ? std::hypot(kEnds.cut_noise, kVisibility.beam * scales.noise)
+                          : slant * step / std::sqrt(12.0);
     place.sharp = cut.has_value();
   }
   place.occluded = more && plate.plane.signed_distance(cloud.points[beyond]) > 2 * scales.tolerance;

@@ -4,18 +4,9 @@
 #include <cmath>
 #include <limits>
 
+#include "services/seam_finding/ends/constants.hpp"
+
 namespace arcstart::seam_finding {
-namespace {
-
-constexpr double kFlush = 0.3;   // share of joints whose plates end together
-constexpr double kLight = 0.15;  // half a stripe's width: seen where it falls; mm
-constexpr double kNever = 0.01;  // share of possibilities that do not count
-constexpr double kOffsets = 40;  // the others end so far about each other; mm
-// A stripe shows a plate at the seam also where it leaves it a little before; mm along the seam.
-constexpr double kMargin = 0.5;
-constexpr double kMostSlant = 0.5;  // of that for each mm before it
-
-}  // namespace
 
 EndInterval interval_of(const Stations& stations, int plate, double end, double outward) {
   EndInterval interval{end, end, false};
@@ -37,7 +28,7 @@ EndInterval interval_of(const Stations& stations, int plate, double end, double 
 }
 
 double unsure_of(const Stations& stations, int plate) {
-  return kMargin + kMostSlant * stations.near[plate];
+  return kEnds.margin + kEnds.margin_slant * stations.near[plate];
 }
 
 void narrow(EndInterval& interval, const PlateExtent& extent, double unsure, double margin,
@@ -62,22 +53,24 @@ void limit_by_interval(SeamEnd& end, const EndInterval& interval, double outward
   const double inner = outward * interval.inner, outer = outward * interval.outer;
   const double edge = outward * end.along;
   if (edge <= inner || !(outer > inner)) return;
-  const double high = std::min(edge, outer), per_mm = (1 - kFlush) / kOffsets;
+  const double high = std::min(edge, outer), per_mm = (1 - kEnds.flush_share) / kEnds.offsets;
   // A stripe beside the plate lights some of it where it lies nearer than that; of one that is seen
   // past it the half may be hidden.
-  const double beside = interval.seen_past
-                            ? (outer - edge) / std::sqrt(end.variance + kLight * kLight)
-                            : (outer - kLight - edge) / std::sqrt(end.variance);
-  const double flush = kFlush * 0.5 * std::erfc(-beside / std::sqrt(2.0));
+  const double beside =
+      interval.seen_past
+          ? (outer - edge) / std::sqrt(end.variance + kEnds.half_stripe * kEnds.half_stripe)
+          : (outer - kEnds.half_stripe - edge) / std::sqrt(end.variance);
+  const double flush = kEnds.flush_share * 0.5 * std::erfc(-beside / std::sqrt(2.0));
   const double share = per_mm * (high - inner) / (per_mm * (outer - inner) + flush);
   const double middle = (inner + high) / 2;
   const double mean = share * middle + (1 - share) * edge;
-  const double within = (high - inner) * (high - inner) / 12 + kLight * kLight;
+  const double within =
+      (high - inner) * (high - inner) / 12 + kEnds.half_stripe * kEnds.half_stripe;
   end.variance = share * (within + std::pow(middle - mean, 2)) +
                  (1 - share) * (end.variance + std::pow(edge - mean, 2));
   // Two deviations reach as far in as the end may lie, lopsided as that is.
-  if (share > kNever) {
-    const double farthest = inner + kNever / share * (high - inner);
+  if (share > kEnds.never) {
+    const double farthest = inner + kEnds.never / share * (high - inner);
     end.variance = std::max(end.variance, std::pow((mean - farthest) / 2, 2));
   }
   end.along = outward * mean;
@@ -93,7 +86,7 @@ void between_intervals(SeamEnd& end, const std::array<EndInterval, 2>& intervals
   }
   if (!std::isfinite(outer) || outer < inner) return;
   end.along = outward * (inner + outer) / 2;
-  end.variance = (outer - inner) * (outer - inner) / 12 + kLight * kLight;
+  end.variance = (outer - inner) * (outer - inner) / 12 + kEnds.half_stripe * kEnds.half_stripe;
 }
 
 }  // namespace arcstart::seam_finding

@@ -7,19 +7,12 @@
 #include <vector>
 
 #include "services/seam_finding/coverage/parallel_stations.hpp"
+#include "services/seam_finding/ends/constants.hpp"
 #include "services/seam_finding/ends/plate_end.hpp"
 #include "services/seam_finding/visibility/plate_extent.hpp"
 
 namespace arcstart::seam_finding {
 namespace {
-
-constexpr double kMargin = 0.5;  // of an edge about the stripes that enclose it; mm
-constexpr double kBridge = 20;   // mm
-// Flat on the table a plate's edge is crossed by few stripes, at a small slant.
-constexpr double kEdgeFactor = 2.25;  // of the variance of an edge that many would cross
-constexpr double kEdgeFloor = 0.08;   // mm
-constexpr double kShortest = 1.5;     // of what shows a plate, over the distance that does
-constexpr int kSteps = 200;
 
 // Between which stripes a plate ends, counted outward; mm.
 struct Enclosed {
@@ -40,8 +33,8 @@ std::optional<Enclosed> enclose(const Stations& stations, int plate, double with
   const auto goes_on = [&](std::size_t from) {
     if (from + 1 < places.size() && places[from + 1].second) return true;
     int seen = 0;
-    for (std::size_t i = from; i < places.size() && places[i].first < places[from].first + kBridge;
-         ++i)
+    for (std::size_t i = from;
+         i < places.size() && places[i].first < places[from].first + kCoverage.bridge; ++i)
       seen += places[i].second;
     return seen >= 2;
   };
@@ -104,9 +97,9 @@ void narrow(PlateEnd& end, const PlateExtent& extent, OnSeam&& on_seam) {
 // Of two plates the one that ends first, counted from within.
 void first_of(const PlateEnd& a, const PlateEnd& b, double& mean, double& variance) {
   const double low = std::min(a.low, b.low), high = std::min(a.high, b.high);
-  const double step = (high - low) / kSteps;
+  const double step = (high - low) / kEnds.integral_steps;
   double sum = 0, squares = 0;
-  for (int i = 0; i < kSteps; ++i) {
+  for (int i = 0; i < kEnds.integral_steps; ++i) {
     const double from = low + i * step, middle = from + step / 2;
     const double share = a.share_beyond(from) * b.share_beyond(from) -
                          a.share_beyond(from + step) * b.share_beyond(from + step);
@@ -136,18 +129,21 @@ SeamEnd find_parallel_end(const ScanCloud& cloud, const Joint& joint,
     // A stripe that leaves the plate shortly before it reaches the border seems to show it there,
     // and one that lies on it shortly beside the border is too short to show it.
     const double slant = slant_of(cloud, joint.plates[j], border, outward);
-    PlateEnd plate_end{enclosed->inner - std::max(0.0, -slant) * stations[j].near[j],
-                       enclosed->outer + std::max(0.0, slant) * kShortest * stations[j].near[j],
-                       false};
-    const double from = border.along(joint.line.at(outward * plate_end.low)) - outward * kMargin,
-                 to = border.along(joint.line.at(outward * plate_end.high)) + outward * kMargin;
+    PlateEnd plate_end{
+        enclosed->inner - std::max(0.0, -slant) * stations[j].near[j],
+        enclosed->outer + std::max(0.0, slant) * kEnds.shortest_shown * stations[j].near[j], false};
+    const double from =
+                     border.along(joint.line.at(outward * plate_end.low)) - outward * kEnds.margin,
+                 to =
+                     border.along(joint.line.at(outward * plate_end.high)) + outward * kEnds.margin;
     const EdgeWindow window{std::min(from, to), std::max(from, to)};
     const PlateStripes stripes =
         plate_stripes(cloud, joint.plates[j], joint.plates[1 - j], border, scales);
     auto edge = find_edge(cloud, stripes, side, window, scales, settings);
     if (edge) {
       edge->along = joint.line.along(border.at(edge->along));
-      edge->variance = kEdgeFactor * edge->variance + kEdgeFloor * kEdgeFloor;
+      edge->variance =
+          kEnds.parallel_factor * edge->variance + kEnds.parallel_floor * kEnds.parallel_floor;
       const double half = std::sqrt(3 * edge->variance);  // of as wide an even distribution
       plate_end = {outward * edge->along - half, outward * edge->along + half, true};
       edges.push_back(*edge);

@@ -6,31 +6,14 @@
 #include <utility>
 #include <vector>
 
+#include "services/seam_finding/ends/constants.hpp"
 #include "services/seam_finding/ends/edge_crossing.hpp"
+#include "services/seam_finding/fit/order_statistics.hpp"
 
 namespace arcstart::seam_finding {
 namespace {
 
 using Places = std::vector<EdgeCrossing>;
-
-constexpr double kMostSlope = 0.01;  // of one edge, where its places tell it; mm along per mm away
-constexpr double kAgree = 0.35;      // places on one edge, along the seam; mm
-constexpr double kLeastNoise = 0.015;  // of a place along the seam, standard deviation; mm
-constexpr int kPriorPlaces = 2;        // with that noise, in the estimate of the noise
-constexpr double kFloor = 0.01;        // of an edge, whatever the number of its places; mm
-// And for light ends over edges in many ways, alike in all its places; px square to the edge.
-constexpr double kCommonDeviation = 0.1;
-constexpr std::size_t kTellSlope = 4;    // places
-constexpr double kPlainly = 2;           // times less do they scatter then, and more before
-constexpr double kApart = 3;             // places that tell a slope; mm
-constexpr int kSharpBeyond = 2;          // places
-constexpr double kOutlier = 3;           // standard deviations
-constexpr double kNormalMedian = 1.483;  // standard deviation over the median of absolute values
-constexpr double kNearSeam = 3;          // of it stripes turn into the other plate; mm
-constexpr double kFarEdge = 3;  // a stripe that ends so near the plate's far edge ends there; mm
-// Odds that plates are cut flush (3 to 7), times the way over which others' edges scatter about
-// each other (13), over the root of 2 pi; mm.
-constexpr double kFlushOdds = 2.3;
 
 double variance_of(const EdgeCrossing& place, double noise) {
   return noise * noise + place.deviation * place.deviation;
@@ -57,23 +40,17 @@ EdgeFit fit_edge(const Places& places, double noise, double slope) {
   return {(t * rr - r * rt) / determinant, (w * rt - r * t) / determinant, rr / determinant};
 }
 
-// The median; of an even number the upper of the two in the middle.
-double median(std::vector<double> values) {
-  const auto middle = values.begin() + std::ssize(values) / 2;
-  std::nth_element(values.begin(), middle, values.end());
-  return *middle;
-}
 template <class Value>
 double middle_of(const Places& places, Value value) {
   std::vector<double> values;
   values.reserve(places.size());
   for (const EdgeCrossing& place : places) values.push_back(value(place));
-  return median(std::move(values));
+  return median(values);
 }
 
 // Standard deviations: of the places about an edge, and what is known of them one by one.
 double spread_about(const Places& places, const EdgeFit& fit) {
-  return kNormalMedian *
+  return kEnds.rounded_median_to_deviation *
          middle_of(places, [&fit](const EdgeCrossing& place) { return off_edge(place, fit); });
 }
 double known_to(const Places& places) {
@@ -86,22 +63,24 @@ EdgeFit through_the_middle(const Places& places) {
   const EdgeFit square{middle_of(places, [](const EdgeCrossing& place) { return place.along; }), 0,
                        0};
   const double spread = spread_about(places, square);
-  if (places.size() < kTellSlope || spread < kPlainly * std::hypot(known_to(places), kLeastNoise))
+  if (places.size() < kFit.line_places ||
+      spread < kEnds.plainly * std::hypot(known_to(places), kEnds.least_place_noise))
     return square;
   std::vector<double> slopes;
   for (const EdgeCrossing& a : places)
     for (const EdgeCrossing& b : places)
-      if (b.away - a.away > kApart) slopes.push_back((b.along - a.along) / (b.away - a.away));
+      if (b.away - a.away > kEnds.direction_base)
+        slopes.push_back((b.along - a.along) / (b.away - a.away));
   if (slopes.size() < places.size()) return square;
-  EdgeFit askew{0, median(std::move(slopes)), 0};
+  EdgeFit askew{0, median(slopes), 0};
   askew.at_seam = middle_of(
       places, [&](const EdgeCrossing& place) { return place.along - askew.slope * place.away; });
-  return kPlainly * spread_about(places, askew) < spread ? askew : square;
+  return kEnds.plainly * spread_about(places, askew) < spread ? askew : square;
 }
 
 // Places of one edge; several that are sharp tell a plate's edge also where it was not expected.
 Places largest_agreement(const Places& places, const EdgeWindow& window, double edge_slope) {
-  const double most_slope = std::max(kMostSlope, edge_slope);
+  const double most_slope = std::max(kVisibility.end_slope, edge_slope);
   Places best;
   double most = 0;
   for (const EdgeCrossing& one : places) {
@@ -110,15 +89,15 @@ Places largest_agreement(const Places& places, const EdgeWindow& window, double 
     double weight = 0;
     int sharp = 0;
     for (const EdgeCrossing& other : places) {
-      const double allowed = kAgree + 2 * std::hypot(most_slope * (one.away - other.away),
-                                                     one.deviation, other.deviation);
+      const double allowed = kEnds.agree + 2 * std::hypot(most_slope * (one.away - other.away),
+                                                          one.deviation, other.deviation);
       if (std::abs(one.along - other.along) > allowed) continue;
       together.push_back(other);
-      weight += kAgree / (kAgree + other.deviation);
+      weight += kEnds.agree / (kEnds.agree + other.deviation);
       sharp += other.sharp;
     }
     const bool expected = one.along >= window.from && one.along <= window.to;
-    if ((expected || sharp >= kSharpBeyond) && weight > most)
+    if ((expected || sharp >= kEnds.sharp_beyond) && weight > most)
       most = weight, best = std::move(together);
   }
   return best;
@@ -131,10 +110,11 @@ std::optional<PlateEdge> find_edge(const ScanCloud& cloud, const PlateStripes& s
                                    const SeamFindingSettings& settings) {
   Places places;
   // What lies farther from the seam is the plate's other edge, along the seam.
-  const double far = stripes.reach - kFarEdge;
+  const double far = stripes.reach - kVisibility.far_edge;
   for (const auto& run : stripes.runs)
     if (const auto place = edge_crossing(cloud, run, stripes, side, scales, settings))
-      if (place->away < far && (place->sharp || place->away > kNearSeam)) places.push_back(*place);
+      if (place->away < far && (place->sharp || place->away > kVisibility.near_seam))
+        places.push_back(*place);
   Places on_edge = largest_agreement(places, window, settings.edge_slope());
   // What is seen of the plate before something else tells no more than that it reaches so far.
   const auto clear = [](const EdgeCrossing& place) { return place.sharp && !place.occluded; };
@@ -142,22 +122,23 @@ std::optional<PlateEdge> find_edge(const ScanCloud& cloud, const PlateStripes& s
       static_cast<std::ptrdiff_t>(on_edge.size()))
     std::erase_if(on_edge, [](const EdgeCrossing& place) { return place.occluded; });
   // A lone stripe that ends beside the seam, or cannot be seen to, ends for another reason.
-  if (on_edge.size() == 1 && (on_edge[0].away <= kNearSeam || !on_edge[0].sharp))
+  if (on_edge.size() == 1 && (on_edge[0].away <= kVisibility.near_seam || !on_edge[0].sharp))
     return std::nullopt;
 
   if (on_edge.empty()) return std::nullopt;
 
   EdgeFit fit = through_the_middle(on_edge);
-  const double slope =
-      fit.slope == 0 ? settings.edge_slope() : std::max(kMostSlope, settings.edge_slope());
+  const double slope = fit.slope == 0 ? settings.edge_slope()
+                                      : std::max(kVisibility.end_slope, settings.edge_slope());
   for (int pass = 0; pass < 3; ++pass) {
     const double spread = spread_about(on_edge, fit), known = known_to(on_edge);
     const auto count = static_cast<double>(on_edge.size());
-    const double noise = std::sqrt((kPriorPlaces * kLeastNoise * kLeastNoise +
-                                    count * std::max(0.0, spread * spread - known * known)) /
-                                   (kPriorPlaces + count - 1));
+    const double noise =
+        std::sqrt((kEnds.prior_places * kEnds.least_place_noise * kEnds.least_place_noise +
+                   count * std::max(0.0, spread * spread - known * known)) /
+                  (kEnds.prior_places + count - 1));
     std::erase_if(on_edge, [&](const EdgeCrossing& place) {
-      return off_edge(place, fit) > kOutlier * std::sqrt(variance_of(place, noise));
+      return off_edge(place, fit) > kFit.outlier * std::sqrt(variance_of(place, noise));
     });
     if (on_edge.empty()) return std::nullopt;
     fit = fit_edge(on_edge, noise, slope);
@@ -171,7 +152,8 @@ std::optional<PlateEdge> find_edge(const ScanCloud& cloud, const PlateStripes& s
   };
   edge.away = mean(&EdgeCrossing::away);
   edge.pixel = mean(&EdgeCrossing::pixel);
-  edge.variance = fit.variance + kFloor * kFloor + std::pow(kCommonDeviation * edge.pixel, 2);
+  edge.variance = fit.variance + kEnds.edge_floor * kEnds.edge_floor +
+                  std::pow(kEnds.common_deviation * edge.pixel, 2);
   edge.stripes = static_cast<int>(on_edge.size());
   const auto occluded = std::count_if(on_edge.begin(), on_edge.end(),
                                       [](const EdgeCrossing& p) { return p.occluded; });
@@ -190,7 +172,7 @@ CommonEnd end_of_both(const PlateEdge& a, const PlateEdge& b, SeamSide side) {
   const double variance = a.variance + b.variance, deviation = std::sqrt(variance);
   const double apart = outward * (b.along - a.along) / deviation;
   const double chance = std::exp(-apart * apart / 2);
-  const double flush = 1 / (1 + deviation / (kFlushOdds * chance));
+  const double flush = 1 / (1 + deviation / (kEnds.flush_odds * chance));
   const CommonEnd one{(a.along * b.variance + b.along * a.variance) / variance,
                       a.variance * b.variance / variance};
   // The lesser of two normal distributions (Clark 1961), from `a` outward.

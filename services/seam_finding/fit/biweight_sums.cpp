@@ -4,11 +4,10 @@
 #include <cstring>
 
 #include "common/instruction_sets.hpp"
+#include "services/seam_finding/fit/constants.hpp"
 
 namespace arcstart::seam_finding {
 namespace {
-
-constexpr std::size_t kBlock = 1024;  // points summed in floats before doubles take over
 
 struct Task {
   PlacedHeights points;
@@ -26,9 +25,9 @@ template <int kFloats>
 ARCSTART_INLINE_BODY void add_up_body(const Task& task) {
   using Floats = typename FloatRegister<kFloats>::Floats;
   BiweightSums& sums = task.sums;
-  for (std::size_t first = 0; first < task.points.count; first += kBlock) {
+  for (std::size_t first = 0; first < task.points.count; first += kFit.sum_block) {
     Floats w{}, a{}, b{}, aa{}, ab{}, bb{}, r{}, ra{}, rb{};
-    const std::size_t last = std::min(first + kBlock, task.points.count);
+    const std::size_t last = std::min(first + kFit.sum_block, task.points.count);
     for (std::size_t i = first; i < last; i += kFloats) {
       Floats pa, pb, off;
       std::memcpy(&pa, task.points.a + i, sizeof pa);

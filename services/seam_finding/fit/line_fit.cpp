@@ -4,25 +4,20 @@
 #include <algorithm>
 #include <cmath>
 
+#include "services/seam_finding/fit/constants.hpp"
+#include "services/seam_finding/fit/order_statistics.hpp"
+
 namespace arcstart::seam_finding {
-namespace {
-
-constexpr double kTukey = 4.685;               // standard deviations
-constexpr double kMedianToDeviation = 1.4826;  // of normal noise
-constexpr int kPasses = 12;
-constexpr int kLeastPlaces = 4;
-
-}  // namespace
 
 std::optional<LineFit> fit_line(const std::vector<LinePlace>& places, double lean_deviation) {
-  if (static_cast<int>(places.size()) < kLeastPlaces) return std::nullopt;
+  if (static_cast<int>(places.size()) < kFit.line_places) return std::nullopt;
   LineFit fit;
   for (const LinePlace& place : places)
     fit.middle += place.along / static_cast<double>(places.size());
   std::vector<double> weights(places.size(), 1);
   double scale = 1;  // of the residuals over their deviations, standard
   Eigen::Matrix3d inverse = Eigen::Matrix3d::Zero();
-  for (int pass = 0; pass < kPasses; ++pass) {
+  for (int pass = 0; pass < kFit.line_passes; ++pass) {
     Eigen::Matrix3d normal = Eigen::Matrix3d::Zero();
     Eigen::Vector3d right = Eigen::Vector3d::Zero();
     for (std::size_t i = 0; i < places.size(); ++i) {
@@ -43,16 +38,14 @@ std::optional<LineFit> fit_line(const std::vector<LinePlace>& places, double lea
                           place.deviation);
     std::vector<double> sizes = residuals;
     for (double& size : sizes) size = std::abs(size);
-    const auto median = sizes.begin() + static_cast<std::ptrdiff_t>(sizes.size() / 2);
-    std::nth_element(sizes.begin(), median, sizes.end());
-    scale = std::max(1.0, kMedianToDeviation * *median);
+    scale = std::max(1.0, kFit.median_to_deviation * median(sizes));
     fit.places = 0;
     for (std::size_t i = 0; i < places.size(); ++i) {
-      const double off = residuals[i] / (kTukey * scale);
+      const double off = residuals[i] / (kFit.tukey_limit * scale);
       weights[i] = std::abs(off) < 1 ? (1 - off * off) * (1 - off * off) : 0;
       fit.places += weights[i] > 0.1;
     }
-    if (fit.places < kLeastPlaces) return std::nullopt;
+    if (fit.places < kFit.line_places) return std::nullopt;
   }
   fit.variance = scale * scale * inverse(0, 0);
   fit.slope_variance = scale * scale * inverse(1, 1);

@@ -5,22 +5,11 @@
 #include <cmath>
 #include <limits>
 
+#include "services/seam_finding/fit/order_statistics.hpp"
+#include "services/seam_finding/gaps/constants.hpp"
+
 namespace arcstart::seam_finding {
 namespace {
-
-constexpr std::size_t kMostPlaces = 500;
-constexpr double kClearlyBelow = 4;  // deviations
-constexpr int kLeastBelow = 3;
-constexpr int kPasses = 25;
-constexpr double kOutlier = 1.2;  // off by more than this much of the deepest place; counts nothing
-constexpr double kLeastRounding = 0.02;  // mm
-constexpr double kMostRounding = 1;      // mm
-constexpr double kLeastWidth = 0.1;      // mm
-constexpr double kMostSlope = 0.1;       // off the joint's
-constexpr double kSlopes[] = {-0.02, -0.007, 0.007, 0.02}, kWidths[] = {0.6, 1, 1.8};
-constexpr double kRounding = 0.4;  // standard deviation; mm
-// By the fit, of what the heights differ from a plate without a gap.
-constexpr double kMostLeft = 0.5;
 
 // Place of the farther plate's edge at the middle, slope, width, rounding.
 using Parameters = Eigen::Vector4d;
@@ -38,16 +27,14 @@ class Fit {
  public:
   Fit(const std::vector<SeenPlace>& places, const ButtGapSearch& search)
       : search_(search), steepness_(1 / std::abs(search.sight)) {
-    const std::size_t step = 1 + places.size() / kMostPlaces;
+    const std::size_t step = 1 + places.size() / kGaps.most_places;
     for (std::size_t i = 0; i < places.size(); i += step) places_.push_back(places[i]);
     std::vector<double> depths;
     for (const SeenPlace& place : places_)
       if (is_below(place)) depths.push_back(-place.height), seen_ += x_of(place, {0, 0, 0, 0});
-    if (std::ssize(depths) < kLeastBelow) return;
+    if (std::ssize(depths) < kModel.sure_points) return;
     seen_ /= static_cast<double>(depths.size());
-    const auto high = depths.begin() + 9 * (std::ssize(depths) - 1) / 10;
-    std::nth_element(depths.begin(), high, depths.end());
-    scale_ = kOutlier * *high;
+    scale_ = kGaps.outlier_share * quantile(depths, 0.9);
   }
 
   // Whether there is anything to fit; and where it was seen, on the average.
@@ -80,7 +67,7 @@ class Fit {
   // Levenberg and Marquardt's, with the weights anew in each pass.
   Parameters refined(Parameters p) const {
     double damping = 1e-2, least = cost(p);
-    for (int pass = 0; pass < kPasses; ++pass) {
+    for (int pass = 0; pass < kGaps.passes; ++pass) {
       const auto [normal, right] = normal_equations(p);
       Eigen::Matrix4d damped = normal;
       damped.diagonal() *= 1 + damping;
@@ -110,15 +97,15 @@ class Fit {
 
  private:
   bool is_below(const SeenPlace& place) const {
-    return place.height < -kClearlyBelow * search_.noise;
+    return place.height < -kFit.on_plane * search_.noise;
   }
   static Parameters held(const Parameters& p) {
-    return {p[0], std::clamp(p[1], -kMostSlope, kMostSlope), std::max(p[2], kLeastWidth),
-            std::clamp(p[3], kLeastRounding, kMostRounding)};
+    return {p[0], std::clamp(p[1], -kGaps.most_slope, kGaps.most_slope),
+            std::max(p[2], kGaps.least_width),
+            std::clamp(p[3], kGaps.least_rounding, kGaps.most_rounding)};
   }
 
   std::pair<Eigen::Matrix4d, Parameters> normal_equations(const Parameters& p) const {
-    constexpr double kStep = 1e-4;
     Eigen::Matrix4d normal = Eigen::Matrix4d::Zero();
     Parameters right = Parameters::Zero();
     for (const SeenPlace& place : places_) {
@@ -128,10 +115,12 @@ class Fit {
       const auto at = [&](double dx, double dw, double dr) {
         return rounded_sawtooth(x + dx, p[2] + dw, p[3] + dr, steepness_);
       };
-      const double here = at(0, 0, 0), by_x = (at(kStep, 0, 0) - here) / kStep;
+      const double here = at(0, 0, 0),
+                   by_x = (at(kGaps.difference, 0, 0) - here) / kGaps.difference;
       const double lever = (search_.sight > 0 ? -1 : 1) * (place.along - search_.middle);
-      const Parameters row(-by_x, by_x * lever, (at(0, kStep, 0) - here) / kStep,
-                           (at(0, 0, kStep) - here) / kStep);
+      const Parameters row(-by_x, by_x * lever,
+                           (at(0, kGaps.difference, 0) - here) / kGaps.difference,
+                           (at(0, 0, kGaps.difference) - here) / kGaps.difference);
       normal += w * row * row.transpose();
       right += w * (place.height - here) * row;
     }
@@ -152,13 +141,13 @@ std::optional<std::array<LineFit, 2>> fit_butt_gap(const std::vector<SeenPlace>&
   if (!fit.shows_a_gap()) return std::nullopt;
   Parameters best = Parameters::Zero();
   double least = std::numeric_limits<double>::infinity();
-  for (const double slope : kSlopes)
-    for (const double width : kWidths) {
-      const Parameters p = fit.refined({fit.seen() + width * 2 / 3, slope, width, kRounding});
+  for (const double slope : kGaps.slopes)
+    for (const double width : kGaps.widths) {
+      const Parameters p = fit.refined({fit.seen() + width * 2 / 3, slope, width, kGaps.rounding});
       if (const double cost = fit.cost(p); cost < least) least = cost, best = p;
     }
-  const double without = fit.cost({fit.seen() + 1e6, 0, kLeastWidth, kLeastRounding});
-  if (least > kMostLeft * without || best[2] > search.widest) return std::nullopt;
+  const double without = fit.cost({fit.seen() + 1e6, 0, kGaps.least_width, kGaps.least_rounding});
+  if (least > kGaps.most_left * without || best[2] > search.widest) return std::nullopt;
 
   const Eigen::Matrix4d covariance = fit.covariance(best);
   // In terms of the farther edge and the width; the nearer edge is their difference.

@@ -4,22 +4,11 @@
 #include <cmath>
 #include <span>
 
+#include "services/seam_finding/fit/order_statistics.hpp"
+#include "services/seam_finding/gaps/constants.hpp"
+
 namespace arcstart::seam_finding {
 namespace {
-
-constexpr double kReach = 10;     // of the corner; mm
-constexpr double kWidest = 6;     // gap; mm
-constexpr double kOnPlate = 0.5;  // of a point from a plate's plane; mm
-constexpr double kClear = 1;      // a stripe that comes from so far on a plate is on it; mm
-constexpr double kRounding = 8;   // so far behind a turn the stripe is where its surface is; px
-// What reflections make of the area, standard deviation; px^2.
-constexpr double kAreaDeviation = 7;
-constexpr double kEndDeviation = 0.2;  // of a gap by a segment's end near another; mm
-constexpr double kLeastBehind = 0.3;   // of the plate that goes on; mm
-constexpr double kFlattest = 0.2;      // mm that is seen of it for each mm of gap, at least
-constexpr double kKept = 1.3;          // of the thinning: two steps in one, a point between is kept
-constexpr std::size_t kEnough = 4000;  // points that tell the thinning
-constexpr double kFine = 3;            // centres so near each other show the corner anyway; px
 
 // The cross-section of a corner whose plate `standing` may stand off the other: p = corner +
 // behind * b + up * w, with b along the plate that goes on, in under the standing one, and w along
@@ -65,8 +54,9 @@ std::vector<int> points_near(const ScanCloud& cloud, const std::array<JointPlate
   std::vector<int> near;
   for (int i = 0; i < cloud.size(); ++i) {
     const Eigen::Vector3d& p = cloud.points[i];
-    if (std::abs(plates[0].plane.signed_distance(p)) <= kReach &&
-        std::abs(plates[1].plane.signed_distance(p)) <= kReach && line.distance(p) <= kReach)
+    if (std::abs(plates[0].plane.signed_distance(p)) <= kGaps.reach &&
+        std::abs(plates[1].plane.signed_distance(p)) <= kGaps.reach &&
+        line.distance(p) <= kGaps.reach)
       near.push_back(i);
   }
   return near;
@@ -91,8 +81,8 @@ std::vector<std::vector<Place>> pieces_of(const ScanCloud& cloud, std::span<cons
     if (piece.front().from_start() > piece.back().from_start())
       std::reverse(piece.begin(), piece.end());
     // Over a lap's cut the stripe turns onto the upper plate's top.
-    while (piece.size() > 1 && std::abs(piece.back().behind) > kOnPlate &&
-           piece.back().up > kWidest)
+    while (piece.size() > 1 && std::abs(piece.back().behind) > kGaps.on_plate &&
+           piece.back().up > kGaps.widest)
       piece.pop_back();
   }
   return pieces;
@@ -104,11 +94,11 @@ double distance_px(const Place& a, const Place& b) {
 
 // Of a stripe that is thinned out, the bends may have been kept.
 bool shows_bends(const std::vector<Place>& piece, double thinning_px) {
-  if (thinning_px <= kFine) return true;
+  if (thinning_px <= kGaps.fine) return true;
   for (std::size_t i = 1; i + 1 < piece.size(); ++i)
-    if (std::abs(piece[i].from_start()) < kClear + kRounding * piece[i].step &&
+    if (std::abs(piece[i].from_start()) < kGaps.clear + kGaps.turn * piece[i].step &&
         distance_px(piece[i - 1], piece[i]) + distance_px(piece[i], piece[i + 1]) <
-            kKept * thinning_px)
+            kGaps.kept_steps * thinning_px)
       return true;
   return false;
 }
@@ -133,14 +123,15 @@ double area_behind(const std::vector<Place>& piece, double highest) {
 std::optional<RootGap> through_the_corner(const std::vector<Place>& piece, double sight,
                                           double thinning_px) {
   const Place &first = piece.front(), &last = piece.back();
-  const double step = piece[piece.size() / 2].step, rounding = kRounding * step;
-  if (first.behind > -kClear || std::abs(first.up) > kOnPlate || last.up < kClear + rounding ||
-      std::abs(last.behind) > kOnPlate || !(step > 0) || !shows_bends(piece, thinning_px))
+  const double step = piece[piece.size() / 2].step, rounding = kGaps.turn * step;
+  if (first.behind > -kGaps.clear || std::abs(first.up) > kGaps.on_plate ||
+      last.up < kGaps.clear + rounding || std::abs(last.behind) > kGaps.on_plate || !(step > 0) ||
+      !shows_bends(piece, thinning_px))
     return std::nullopt;
   // The triangle's side along the standing plate.
   const auto side = [&](double area) { return std::sqrt(2 * std::max(0.0, area) / sight); };
-  const double area = area_behind(piece, side(area_behind(piece, kWidest)) + rounding);
-  const double off = kAreaDeviation * step * step;
+  const double area = area_behind(piece, side(area_behind(piece, kGaps.widest)) + rounding);
+  const double off = kGaps.area_deviation * step * step;
   return RootGap{side(area), (side(area + off) - side(area - off)) / 2};
 }
 
@@ -148,33 +139,31 @@ std::optional<RootGap> through_the_corner(const std::vector<Place>& piece, doubl
 std::optional<RootGap> across_the_gap(const std::vector<std::vector<Place>>& pieces) {
   const auto goes_under = [](const std::vector<Place>& piece) {
     const Place& end = piece.back();
-    return piece.front().behind < -kClear && end.end && end.behind > kLeastBehind &&
-           end.behind < kWidest && std::abs(end.up) < kOnPlate;
+    return piece.front().behind < -kGaps.clear && end.end && end.behind > kGaps.least_behind &&
+           end.behind < kGaps.widest && std::abs(end.up) < kGaps.on_plate;
   };
   const auto goes_up = [](const std::vector<Place>& piece) {
     const Place& end = piece.front();
-    return end.end && end.up > 0 && end.up < kWidest && piece.back().up > end.up + kClear &&
-           std::abs(end.behind) < kOnPlate && std::abs(piece.back().behind) < kOnPlate;
+    return end.end && end.up > 0 && end.up < kGaps.widest &&
+           piece.back().up > end.up + kGaps.clear && std::abs(end.behind) < kGaps.on_plate &&
+           std::abs(piece.back().behind) < kGaps.on_plate;
   };
   const auto under = std::find_if(pieces.begin(), pieces.end(), goes_under);
   const auto wall = std::find_if(pieces.begin(), pieces.end(), goes_up);
   if (under == pieces.end() || wall == pieces.end() || under == wall) return std::nullopt;
-  return RootGap{wall->front().up, kEndDeviation};
+  return RootGap{wall->front().up, kGaps.parted_deviation};
 }
 
 // Between the centres of a stripe where it does not bend; the same all through a scan.
 double thinning_of(const ScanCloud& cloud, const std::vector<int>& points) {
   std::vector<double> steps;
-  for (std::size_t i = 1; i < std::min(points.size(), kEnough); ++i) {
+  for (std::size_t i = 1; i < std::min(points.size(), kGaps.thinning_sample); ++i) {
     const PointOrigin &a = cloud.origins[points[i - 1]], &b = cloud.origins[points[i]];
     if (points[i] == points[i - 1] + 1 && a.stripe == b.stripe && a.segment == b.segment &&
         a.step > 0)
       steps.push_back((cloud.points[points[i]] - cloud.points[points[i - 1]]).norm() / a.step);
   }
-  if (steps.empty()) return 0;
-  const auto high = steps.begin() + static_cast<std::ptrdiff_t>(3 * (steps.size() - 1) / 4);
-  std::nth_element(steps.begin(), high, steps.end());
-  return *high;
+  return quantile(steps, 0.75);
 }
 
 using Gaps = std::vector<std::optional<RootGap>>;
@@ -188,7 +177,7 @@ Gaps gaps_under(const ScanCloud& cloud, const std::vector<int>& near, const Corn
     last = std::find_if(first, near.end(), [&](int i) { return cloud.origins[i].stripe != k; });
     const auto pieces = pieces_of(cloud, {first, last}, corner);
     const double sight = corner.sight(cloud.stripes[k].camera_centre, pieces.front().front().along);
-    if (!(sight > kFlattest)) continue;
+    if (!(sight > kGaps.flattest)) continue;
     for (const auto& piece : pieces)
       if (const auto gap = through_the_corner(piece, sight, thinning_px)) gaps[k] = gap;
     if (!gaps[k]) gaps[k] = across_the_gap(pieces);

@@ -6,26 +6,11 @@
 
 #include "common/geometry.hpp"
 #include "services/seam_finding/coverage/coverage.hpp"
+#include "services/seam_finding/fit/order_statistics.hpp"
+#include "services/seam_finding/joints/constants.hpp"
 
 namespace arcstart::seam_finding {
 namespace {
-
-constexpr double kBeside = 25;     // a joint is judged by what lies so near the line; mm
-constexpr double kFullReach = 10;  // a plate that reaches so far from the seam counts in full; mm
-// Outside a corner a plate reaches so far, else it is the cut of the other; mm.
-constexpr double kLeastOutside = 22;
-constexpr double kLeastConcave = 0.8;
-constexpr double kInUnder =
-    3.5;  // a plate is seen so far in under the other through a root gap; mm
-constexpr double kLeastExplained = 0.5;
-constexpr double kNoComponent = 0.05;       // of a unit direction that only noise gives a sign
-constexpr double kNearMiss = 10 * kDegree;  // beyond the tolerance of Eq. 6
-constexpr double kShortestSeam = 10;        // mm: less of it seen on both plates is no seam
-constexpr double kShortestLoose = 20;       // in a cloud without stripes; mm
-constexpr double kSamePlane = 2 * kDegree;
-constexpr double kSameDirection = 3 * kDegree;
-constexpr double kAssumedViewSlant = 20 * kDegree;  // between an assumed viewpoint and a face
-constexpr double kGivenViewSlant = 5 * kDegree;     // between a given one and a face
 
 bool touches(const ScanCloud& cloud, const std::vector<int>& points, const Line& line,
              double distance) {
@@ -49,7 +34,8 @@ std::vector<int> with_pieces_of_the_plane(const ScanCloud& cloud, const std::vec
                                           int face, const Line& line, const Scales& scales) {
   std::vector<int> points = faces[face].points;
   for (int k = 0; k < static_cast<int>(faces.size()); ++k) {
-    if (k == face || faces[k].plane.normal.dot(faces[face].plane.normal) < std::cos(kSamePlane))
+    if (k == face ||
+        faces[k].plane.normal.dot(faces[face].plane.normal) < std::cos(kJoints.same_plane))
       continue;
     if (std::abs(faces[face].plane.signed_distance(middle(cloud, faces[k].points))) >
         2 * scales.tolerance)
@@ -69,12 +55,6 @@ struct Beside {
   double reach = 0;   // three quarters of the points are nearer; mm
   double whole = 0;   // nine tenths of all the plate's points there are nearer; mm
 };
-double quantile(std::vector<double>& values, std::size_t part, std::size_t of) {
-  if (values.empty()) return 0;
-  const auto place = values.begin() + static_cast<std::ptrdiff_t>(part * values.size() / of);
-  std::nth_element(values.begin(), place, values.end());
-  return *place;
-}
 
 Beside look_beside(const ScanCloud& cloud, const Joint& joint, int plate, double tolerance) {
   const bool outside = joint.type == JointType::kOutsideCorner;
@@ -85,18 +65,18 @@ Beside look_beside(const ScanCloud& cloud, const Joint& joint, int plate, double
     const double t = joint.line.along(point), r = joint.line.distance(point);
     if (t < joint.coverage.begin || t > joint.coverage.end) continue;
     all.push_back(r);
-    if (r > kBeside) continue;
+    if (r > kModel.beside_seam) continue;
     distances.push_back(r);
     // What lies farther behind may be the plate going on beyond the other's thickness.
     if (r > joint.plates[plate].contact) continue;
     const double side = (outside ? -1 : 1) * joint.plates[1 - plate].plane.signed_distance(point);
     before += side > tolerance;
-    behind += side < -(outside ? tolerance : std::max(tolerance, kInUnder));
+    behind += side < -(outside ? tolerance : std::max(tolerance, kJoints.in_under));
   }
   Beside beside;
   if (before > 0) beside.before = static_cast<double>(before) / (before + behind);
-  beside.reach = quantile(distances, 3, 4);
-  beside.whole = quantile(all, 9, 10);
+  beside.reach = upper_quantile(distances, 0.75);
+  beside.whole = upper_quantile(all, 0.9);
   return beside;
 }
 
@@ -107,7 +87,8 @@ double explained_share(const ScanCloud& cloud, const std::vector<int>& left, con
   for (const int i : left) {
     const Eigen::Vector3d& point = cloud.points[i];
     const double t = joint.line.along(point);
-    if (t < joint.coverage.begin || t > joint.coverage.end || joint.line.distance(point) > kBeside)
+    if (t < joint.coverage.begin || t > joint.coverage.end ||
+        joint.line.distance(point) > kModel.beside_seam)
       continue;
     ++all;
     explained += std::abs(joint.plates[0].plane.signed_distance(point)) <= tolerance ||
@@ -121,13 +102,14 @@ Reason flaw_of(const ScanCloud& cloud, const Joint& joint, double narrower_plate
                const Scales& scales, const SeamFindingSettings& settings) {
   using Code = Reason::Code;
   const bool outside = joint.type == JointType::kOutsideCorner;
-  const double length_min = cloud.organised()
-                                ? kShortestSeam
-                                : std::max(kShortestLoose, settings.stripes_min * scales.spacing);
+  const double length_min = cloud.organised() ? kJoints.shortest_seam
+                                              : std::max(kJoints.shortest_doubtful,
+                                                         settings.stripes_min * scales.spacing);
   if (std::abs(off) > 1) return {Code::kAngle, plates_angle(joint)};
-  if (joint.concavity < kLeastConcave) return {outside ? Code::kNotConvex : Code::kNotConcave};
-  if (outside && narrower_plate < kLeastOutside) return {Code::kEdgeOfOnePlate};
-  if (joint.explained < kLeastExplained) return {Code::kTooMuchElse};
+  if (joint.concavity < kJoints.least_concave)
+    return {outside ? Code::kNotConvex : Code::kNotConcave};
+  if (outside && narrower_plate < kJoints.least_outside) return {Code::kEdgeOfOnePlate};
+  if (joint.explained < kJoints.least_explained) return {Code::kTooMuchElse};
   if (cloud.organised() && joint.coverage.stripes < settings.stripes_min)
     return {Code::kFewStripesCross, static_cast<double>(joint.coverage.stripes)};
   if (joint.coverage.covered < length_min) return {Code::kShortlySeen, joint.coverage.covered};
@@ -149,8 +131,8 @@ void judge(const ScanCloud& cloud, const std::vector<int>& left, Joint& joint, c
   const WantedAngle wanted = wanted_angle(joint.type, settings);
   const double off = (plates_angle(joint) - wanted.angle) / wanted.tolerance;
   joint.score = course.covered * joint.explained * joint.explained * joint.concavity *
-                joint.concavity * std::min(1.0, first.reach / kFullReach) *
-                std::min(1.0, second.reach / kFullReach) * std::max(0.0, 1 - off * off / 2);
+                joint.concavity * std::min(1.0, first.reach / kJoints.full_reach) *
+                std::min(1.0, second.reach / kJoints.full_reach) * std::max(0.0, 1 - off * off / 2);
   joint.flaw = flaw_of(cloud, joint, std::min(first.whole, second.whole), off, scales, settings);
 }
 
@@ -160,7 +142,7 @@ Eigen::Vector3d along_search(const ScanCloud& cloud, const Eigen::Vector3d& dire
       search && std::abs(search->dot(direction)) > 1e-6)
     return search->dot(direction) < 0 ? Eigen::Vector3d(-direction) : direction;
   for (const double component : direction)
-    if (std::abs(component) > kNoComponent)
+    if (std::abs(component) > kJoints.no_component)
       return component < 0 ? Eigen::Vector3d(-direction) : direction;
   return direction;
 }
@@ -174,7 +156,7 @@ std::optional<Joint> pair_up(const ScanCloud& cloud, const std::vector<int>& lef
   // Eq. 6 with the sign of the normals left open; near misses are listed with their flaw.
   const double least =
       std::min(std::abs(fold - wanted.angle), std::abs(M_PI - fold - wanted.angle));
-  if (least > wanted.tolerance + kNearMiss) return std::nullopt;
+  if (least > wanted.tolerance + kJoints.near_miss) return std::nullopt;
   const auto line = intersect(faces[a].plane, faces[b].plane, middle(cloud, faces[a].points));
   if (!line || !touches(cloud, faces[a].points, *line, contact_of(faces[a], scales)) ||
       !touches(cloud, faces[b].points, *line, contact_of(faces[b], scales)))
@@ -220,7 +202,8 @@ std::vector<Face> turned_to_sensor(const ScanCloud& cloud, std::vector<Face> fac
     const double slant =
         std::asin(std::min(1.0, std::abs(sum) / static_cast<double>(face.points.size())));
     face.side_known =
-        cloud.organised() || slant > (cloud.viewpoint_known ? kGivenViewSlant : kAssumedViewSlant);
+        cloud.organised() ||
+        slant > (cloud.viewpoint_known ? kJoints.given_view_slant : kJoints.assumed_view_slant);
   }
   return faces;
 }
@@ -252,7 +235,7 @@ void sort_by_score(std::vector<Joint>& joints) {
 }
 
 bool same_seam(const Joint& a, const Joint& b, double tolerance_mm) {
-  return std::abs(a.line.direction.dot(b.line.direction)) > std::cos(kSameDirection) &&
+  return std::abs(a.line.direction.dot(b.line.direction)) > std::cos(kJoints.same_direction) &&
          a.line.distance(b.line.at((b.coverage.begin + b.coverage.end) / 2)) < tolerance_mm;
 }
 

@@ -4,13 +4,12 @@
 #include <iterator>
 #include <utility>
 
+#include "services/seam_finding/joints/constants.hpp"
 #include "services/seam_finding/joints/crossing_joints.hpp"
 #include "services/seam_finding/joints/parallel_joints.hpp"
 
 namespace arcstart::seam_finding {
 namespace {
-
-constexpr double kAround = 3;  // of a joint between parallel plates; mm
 
 // A lap's edge face and its lower plate form a tee, and so do the faces of a groove: what they
 // cross at belongs to the joint around it.
@@ -18,7 +17,7 @@ bool is_part_of(const Joint& crossing, const Joint& parallel) {
   if (parallel.flaw || 2 * parallel.coverage.covered < crossing.coverage.covered) return false;
   const ParallelSeam& seam = *parallel.parallel;
   const double width = seam.edges[0].distance(seam.edges[1].point);
-  return same_seam(parallel, crossing, kAround + 1.5 * (width + seam.step));
+  return same_seam(parallel, crossing, kJoints.around_parallel + 1.5 * (width + seam.step));
 }
 
 }  // namespace

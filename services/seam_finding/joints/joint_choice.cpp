@@ -4,14 +4,12 @@
 #include <cmath>
 #include <utility>
 
+#include "services/seam_finding/joints/constants.hpp"
 #include "services/seam_finding/joints/crossing_joints.hpp"
 #include "services/seam_finding/joints/joint_refinement.hpp"
 
 namespace arcstart::seam_finding {
 namespace {
-
-constexpr std::size_t kAlternatives = 6;
-constexpr int kMissingInARow = 3;  // stripes before the start
 
 SeamResult::Alternative as_alternative(const Joint& joint, const Reason& reason) {
   return {name_of(joint.type), joint.score, joint.start(), joint.end(), reason};
@@ -31,7 +29,7 @@ std::vector<Joint> distinct_seams(const ScanCloud& cloud, std::vector<Joint> joi
     const bool again = !candidate.flaw && !candidate.parallel;
     seams.push_back(again ? refined(cloud, std::move(candidate), passes, scales, settings)
                           : std::move(candidate));
-    if (seams.size() == kAlternatives) break;
+    if (seams.size() == kJoints.alternatives) break;
   }
   return seams;
 }
@@ -65,7 +63,7 @@ Reason doubt_about(const Joint& best, const SeamFindingSettings& settings) {
       return {Code::kAngleBesideSeam, plates_angle(best)};
   }
   if (course.begins_outside) return {Code::kStartBeforeScan};
-  if (course.missing_before >= kMissingInARow)
+  if (course.missing_before >= kModel.stripes_in_a_row)
     return {Code::kStartMissing, static_cast<double>(course.missing_before)};
   return {};
 }

@@ -7,25 +7,17 @@
 #include "services/seam_finding/cloud/outliers.hpp"
 #include "services/seam_finding/coverage/coverage.hpp"
 #include "services/seam_finding/fit/plane_fit.hpp"
+#include "services/seam_finding/joints/constants.hpp"
 #include "services/seam_finding/planes/robust_plane.hpp"
 
 namespace arcstart::seam_finding {
 namespace {
 
-constexpr int kLeastPoints = 20;
-constexpr std::size_t kSoughtAgain =
-    4096;                              // of more points the outliers are sought in one pass alone
-constexpr std::size_t kEnough = 4096;  // points of a plate; of more, means over so many neighbours
-                                       // of a stripe that it is as few. Points of no stripe have
-                                       // no neighbours
-// The stripe's centre is drawn aside so near the other plate; mm.
-constexpr double kBendWidth = 1.2;
-constexpr double kOverhang = 3;  // beyond the seam's ends; mm
-
 std::vector<int> beside(const ScanCloud& cloud, const Joint& joint, int plate, double distance,
                         double tolerance) {
-  const double bend = std::max(kBendWidth, 2 * tolerance);
-  const double from = joint.coverage.begin - kOverhang, to = joint.coverage.end + kOverhang;
+  const double bend = std::max(kJoints.bend_width, 2 * tolerance);
+  const double from = joint.coverage.begin - kJoints.overhang,
+               to = joint.coverage.end + kJoints.overhang;
   const Plane& other = joint.plates[1 - plate].plane;
   std::vector<int> points;
   points.reserve(joint.plates[plate].points.size());
@@ -89,13 +81,14 @@ std::vector<int> grown_along_stripes(const ScanCloud& cloud, const JointPlate& p
   return grown;
 }
 
-// The plate's plane by the points chosen.
+// The plate's plane by the points chosen. Of more than a sample, by means over so many neighbours
+// in a stripe that they are as few as one; points of no stripe have no neighbours.
 Plane fitted(const ScanCloud& cloud, const Joint& joint, int plate, const std::vector<int>& chosen,
              double noise) {
   const Plane& plane = joint.plates[plate].plane;
-  if (static_cast<int>(chosen.size()) < kLeastPoints) return plane;  // the face's own is better
+  if (chosen.size() < kFit.plane_points) return plane;  // the face's own is better
   std::vector<Eigen::Vector3d> points;
-  const std::size_t together = 1 + chosen.size() / kEnough;
+  const std::size_t together = 1 + chosen.size() / kCloud.sample;
   points.reserve(chosen.size() / together + cloud.stripes.size() + 1);
   for (std::size_t first = 0, last = 0; first < chosen.size(); first = last) {
     const int stripe = cloud.origins[chosen[first]].stripe;
@@ -137,8 +130,9 @@ Joint refined(const ScanCloud& cloud, Joint joint, const RefinementPasses& passe
     std::array<Plane, 2> planes;
     for (int plate = 0; plate < 2; ++plate) {
       const auto chosen = beside(cloud, joint, plate, settings.refit_distance_mm, scales.tolerance);
+      // Of more points than a sample they are sought in the first pass alone.
       if (passes.drop_outliers && settings.outlier_neighbours > 0 &&
-          (pass == 0 || chosen.size() <= kSoughtAgain))
+          (pass == 0 || chosen.size() <= kCloud.sample))
         outliers[plate] =
             difference(chosen, without_outliers(cloud, chosen, settings.outlier_neighbours,
                                                 settings.outlier_deviations,

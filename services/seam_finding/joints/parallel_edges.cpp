@@ -5,24 +5,10 @@
 #include <limits>
 
 #include "services/seam_finding/gaps/butt_gap.hpp"
+#include "services/seam_finding/joints/constants.hpp"
 
 namespace arcstart::seam_finding {
 namespace {
-
-constexpr double kSquareCut = 0.1;  // standard deviation of a lap's cut, mm across for each mm up
-constexpr double kFreeCut = 3;      // of a cut of which nothing is known
-constexpr double kJumpDeviation = 0.3;  // of a segment's last centre from the edge it leaves; mm
-constexpr double kCutDeviation = 0.1;   // of a point on a cut across; mm
-constexpr double kLeastDepth = 1.5;     // of a cut by which its slant is known; mm
-constexpr std::size_t kLeastCut = 6;    // points on a cut
-constexpr double kOffPlate = 1.25;      // a cut's points over what lies on the plates
-constexpr double kNear = 4;             // `near_mm`, in deviations of a point from its plate
-constexpr double kWidest = 4;           // of a narrow gap; mm
-constexpr double kBeside = 4;           // it is sought among what lies so near; mm
-constexpr double kSlanting = 0.2;       // a cut from the plate's normal; rad
-constexpr double kLeastNoise = 0.06;    // beside a gap the light of both plates mingles; mm
-constexpr double kSteepest = 0.15;      // sight into it; mm across for each mm down
-constexpr double kOneLevel = 1;         // between the tops of its plates; mm
 
 int neighbour(const Transition& transition, int plate) {
   return plate == 0 ? transition.last : transition.first;
@@ -69,12 +55,12 @@ LinePlace end_place(const ScanCloud& cloud, const Transition& transition, const 
   const int own = neighbour(transition, plate);
   const Eigen::Vector3d p = frame.of(cloud.points[own]);
   const double outward = plate == 0 ? 1 : -1;
-  LinePlace place{p.x(), p.y(), 0, kJumpDeviation};
+  LinePlace place{p.x(), p.y(), 0, kJoints.jump_deviation};
   if (cloud.origins[own].segment_end) return place;
   double step = pitch_mm;
   if (next >= 0) step = std::abs(frame.of(cloud.points[next]).y() - p.y());
   place.across += outward * step / 2;
-  place.deviation = std::max(kCutDeviation, step / std::sqrt(12.0));
+  place.deviation = std::max(kJoints.cut_deviation, step / std::sqrt(12.0));
   return place;
 }
 
@@ -120,7 +106,8 @@ std::pair<std::vector<SeenPlace>, double> seen_near(const ScanCloud& cloud,
     const Eigen::Vector3d& point = cloud.points[i];
     const Eigen::Vector3d p = frame.of(point);
     const double beside = p.y() - rough.across - rough.slope * (p.x() - rough.middle);
-    if (std::abs(beside) > kBeside || p.x() < from || p.x() > to || std::abs(p.z()) > 2 * kBeside)
+    if (std::abs(beside) > kJoints.gap_reach || p.x() < from || p.x() > to ||
+        std::abs(p.z()) > 2 * kJoints.gap_reach)
       continue;
     const Plane& plane = planes[beside > 0];
     const double height = plane.signed_distance(point);
@@ -144,14 +131,14 @@ std::optional<std::array<LineFit, 2>> butt_edges(const ScanCloud& cloud,
   search.middle = first.middle;
   search.across = (first.at_middle + second.across_at(first.middle)) / 2;
   search.slope = (first.slope + second.slope) / 2;
-  search.noise = std::max(kLeastNoise, near_mm / kNear);
+  search.noise = std::max(kJoints.gap_noise, near_mm / kFit.on_plane);
   const Eigen::Vector3d at =
       frame.origin + search.middle * frame.along + search.across * frame.across;
-  if (std::abs(planes[0].signed_distance(at) - planes[1].signed_distance(at)) > kOneLevel)
+  if (std::abs(planes[0].signed_distance(at) - planes[1].signed_distance(at)) > kJoints.one_level)
     return std::nullopt;
   const auto [places, sight] = seen_near(cloud, transitions, frame, planes, search);
   search.sight = sight;
-  if (!(std::abs(sight) > kSteepest)) return std::nullopt;
+  if (!(std::abs(sight) > kJoints.least_gap_sight)) return std::nullopt;
   return fit_butt_gap(places, search);
 }
 
@@ -170,7 +157,7 @@ ParallelEdges edges_of(const ScanCloud& cloud, const std::vector<Transition>& tr
           end_place(cloud, transition, frame, plate, follower(cloud, transition, plate), pitch_mm));
       if (const int i = end_on_cut(cloud, transition, planes[plate], plate, near_mm); i >= 0) {
         const Eigen::Vector3d p = frame.of(cloud.points[i]);
-        ends_on_cut.push_back({p.x(), p.y(), 0, kCutDeviation});
+        ends_on_cut.push_back({p.x(), p.y(), 0, kJoints.cut_deviation});
       }
       // One alone may lie on the other plate's cut, across the gap.
       const auto below = [&](int i) {
@@ -181,14 +168,14 @@ ParallelEdges edges_of(const ScanCloud& cloud, const std::vector<Transition>& tr
         if (!below(i)) continue;
         const Eigen::Vector3d p = frame.of(cloud.points[i]);
         cut.push_back(
-            {p.x(), p.y(), planes[plate].signed_distance(cloud.points[i]), kCutDeviation});
+            {p.x(), p.y(), planes[plate].signed_distance(cloud.points[i]), kJoints.cut_deviation});
         deepest = std::min(deepest, cut.back().height);
       }
     }
-    if (cut.size() >= kLeastCut && -deepest > kLeastDepth) {
+    if (cut.size() >= kJoints.cut_points && -deepest > kJoints.least_depth) {
       // Falling away from plate 0 is toward larger across. What does not slant open is cut square.
-      if (const auto fit = fit_line(cut, kFreeCut);
-          fit && std::atan((plate == 0 ? -1 : 1) * fit->lean) > kSlanting) {
+      if (const auto fit = fit_line(cut, kJoints.free_cut);
+          fit && std::atan((plate == 0 ? -1 : 1) * fit->lean) > kJoints.slanting) {
         borders.plates[plate] = fit;
         borders.slants[plate] = std::atan((plate == 0 ? -1 : 1) * fit->lean);
         continue;
@@ -196,7 +183,7 @@ ParallelEdges edges_of(const ScanCloud& cloud, const std::vector<Transition>& tr
     }
     const bool parted = 2 * ends_on_cut.size() > transitions.size();
     borders.together |= parted;
-    borders.plates[plate] = fit_line(parted ? ends_on_cut : ends, kSquareCut);
+    borders.plates[plate] = fit_line(parted ? ends_on_cut : ends, kJoints.square_cut);
   }
   const auto& [first, second] = borders.plates;
   if (borders.slants[0] || borders.slants[1] || !first || !second || !cloud.organised() ||
@@ -217,20 +204,20 @@ std::optional<LapRoot> lap_root(const ScanCloud& cloud, const std::vector<Transi
   for (const Transition& transition : transitions) {
     for (const int i : transition.between) {
       const double height = lower.signed_distance(cloud.points[i]);
-      if (height < kOffPlate * near_mm || height > step_mm - kOffPlate * near_mm ||
+      if (height < kJoints.off_plate * near_mm || height > step_mm - kJoints.off_plate * near_mm ||
           cloud.origins[i].segment_end)
         continue;
       const Eigen::Vector3d p = frame.of(cloud.points[i]);
-      cut.push_back({p.x(), p.y(), height, kCutDeviation});
+      cut.push_back({p.x(), p.y(), height, kJoints.cut_deviation});
     }
     // What follows on the upper plate's last point belongs to its cut or, in a thin plate's scan,
     // to the lower plate.
     ends.push_back(
         end_place(cloud, transition, frame, upper, follower(cloud, transition, upper), pitch_mm));
   }
-  if (cut.size() >= kLeastCut)
-    if (const auto fit = fit_line(cut, kSquareCut)) return LapRoot{*fit, true};
-  if (const auto fit = fit_line(ends, kSquareCut)) return LapRoot{*fit, false};
+  if (cut.size() >= kJoints.cut_points)
+    if (const auto fit = fit_line(cut, kJoints.square_cut)) return LapRoot{*fit, true};
+  if (const auto fit = fit_line(ends, kJoints.square_cut)) return LapRoot{*fit, false};
   return std::nullopt;
 }
 

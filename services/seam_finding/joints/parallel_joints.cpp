@@ -5,30 +5,18 @@
 
 #include "services/seam_finding/coverage/coverage.hpp"
 #include "services/seam_finding/coverage/parallel_stations.hpp"
+#include "services/seam_finding/fit/order_statistics.hpp"
 #include "services/seam_finding/fit/plane_fit.hpp"
+#include "services/seam_finding/joints/constants.hpp"
 #include "services/seam_finding/joints/parallel_edges.hpp"
-#include "services/seam_finding/joints/transition_line.hpp"
+#include "services/seam_finding/joints/transitions.hpp"
 
 namespace arcstart::seam_finding {
 namespace {
 
-constexpr double kThrough = 0.6;          // share of the sections in which a seam shows
-constexpr double kFullReach = 10;         // a plate that reaches so far counts in full; mm
-constexpr double kShortestSeam = 20;      // less of it seen on both plates is no seam; mm
-constexpr double kWiderThanHigh = 1.5;    // the upper plate of a lap
-constexpr double kBeside = 60;            // a plate's plane is fitted to what lies so near; mm
-constexpr double kNearNoise = 4;          // of a point on a plate, over the noise
-constexpr double kLeastNear = 0.15;       // mm
-constexpr double kEndDeviation = 0.25;    // of a stripe's end at a gap, standard; mm
-constexpr double kNarrowDeviation = 0.1;  // of a gap that no stripe tells alone; mm
-constexpr double kUnsteady = 0.4;         // deviation of a seam across; mm
-constexpr double kLeastReach = 15;        // of a plate away from the seam; mm
-constexpr double kHiddenRoot = 0.5;       // of a lap's score: whoever scans one looks at its root
-constexpr double kShadow = 2;             // beside a step, over its height
-
 // How far a point of a plate lies from its plane; mm.
 double near_plate(const Scales& scales) {
-  return std::min(scales.tolerance, std::max(kLeastNear, kNearNoise * scales.noise));
+  return std::min(scales.tolerance, std::max(kJoints.least_near, kFit.on_plane * scales.noise));
 }
 
 bool is_wanted(JointType type, const SeamFindingSettings& settings) {
@@ -49,7 +37,7 @@ JointPlate plate_of(const ScanCloud& cloud, const TransitionLine& candidate, con
     const double away = outward * (p.y() - across_of_line - slope * p.x());
     if (away < 0) continue;
     result.points.push_back(i);
-    if (away < kBeside && !cloud.origins[i].segment_end) sums.add(cloud.points[i]);
+    if (away < kPlanes.fit_reach && !cloud.origins[i].segment_end) sums.add(cloud.points[i]);
   }
   result.plane = face.plane;
   if (sums.weight() >= 20) {
@@ -87,11 +75,7 @@ double reach_of(const ScanCloud& cloud, const JointPlate& plate, const Line& bor
   std::vector<double> distances;
   for (const int i : plate.points)
     distances.push_back(std::abs(plate.away.dot(cloud.points[i] - border.point)));
-  if (distances.empty()) return 0;
-  const auto high =
-      distances.begin() + static_cast<std::ptrdiff_t>(9 * (distances.size() - 1) / 10);
-  std::nth_element(distances.begin(), high, distances.end());
-  return *high;
+  return quantile(distances, 0.9);
 }
 
 // The plates' edges make a lap: the upper one's lower edge on the lower one. False where there is
@@ -121,9 +105,10 @@ bool set_lap(const ScanCloud& cloud, const TransitionLine& candidate, const Para
     joint.flaw = {Code::kLapNotWanted};
   else if (seam.step > settings.lap_thickness_max_mm)
     joint.flaw = {Code::kLapThickness, seam.step};
-  else if (width > kShadow * seam.step + 2 * pitch)
+  else if (width > kJoints.step_shadow * seam.step + 2 * pitch)
     joint.flaw = {Code::kPlatesDoNotTouch};
-  else if (reach_of(cloud, joint.plates[upper], seam.edges[upper]) < kWiderThanHigh * seam.step)
+  else if (reach_of(cloud, joint.plates[upper], seam.edges[upper]) <
+           kJoints.wider_than_high * seam.step)
     joint.flaw = {Code::kUpperPlateNarrow};
   return true;
 }
@@ -137,7 +122,8 @@ void set_butt_or_groove(const TransitionLine& candidate, const ParallelEdges& ed
   ParallelSeam& seam = *joint.parallel;
   seam.edges = {on_plane(frame, first, planes[0]), on_plane(frame, second, planes[1])};
   seam.narrow = edges.together;
-  seam.gap_deviation = std::hypot(kNarrowDeviation, std::sqrt(first.variance + second.variance));
+  seam.gap_deviation =
+      std::hypot(kJoints.narrow_deviation, std::sqrt(first.variance + second.variance));
   const Line low = on_plane(frame, seam.seam, planes[0]),
              high = on_plane(frame, seam.seam, planes[1]);
   joint.line = {(low.point + high.point) / 2, (low.direction + high.direction).normalized()};
@@ -187,22 +173,22 @@ void judge(const ScanCloud& cloud, const TransitionLine& candidate, const Scales
   const double reach = std::min(reach_of(cloud, joint.plates[0], edges[0]),
                                 reach_of(cloud, joint.plates[1], edges[1]));
   const double share = std::min(1.0, candidate.share);
-  joint.score = joint.coverage.covered * share * share * std::min(1.0, reach / kFullReach) *
-                (joint.parallel->root_hidden ? kHiddenRoot : 1);
+  joint.score = joint.coverage.covered * share * share * std::min(1.0, reach / kJoints.full_reach) *
+                (joint.parallel->root_hidden ? kJoints.hidden_root : 1);
   if (joint.flaw) return;
   using Code = Reason::Code;
   if (angle_between(joint.plates[0].plane.normal, joint.plates[1].plane.normal) >
       settings.parallel_tolerance_deg * kDegree)
     joint.flaw = {Code::kNotParallel};
-  else if (share < kThrough)
+  else if (share < kJoints.through)
     joint.flaw = {Code::kFewStripesShow, share};
-  else if (joint.parallel->seam.variance > kUnsteady * kUnsteady)
+  else if (joint.parallel->seam.variance > kJoints.unsteady * kJoints.unsteady)
     joint.flaw = {Code::kEdgesNotStraight};
-  else if (reach < kLeastReach)
+  else if (reach < kJoints.least_reach)
     joint.flaw = {Code::kPlateNarrow};
   else if (joint.coverage.stripes < settings.stripes_min)
     joint.flaw = {Code::kFewStripesCross, static_cast<double>(joint.coverage.stripes)};
-  else if (joint.coverage.covered < kShortestSeam)
+  else if (joint.coverage.covered < kJoints.shortest_doubtful)
     joint.flaw = {Code::kShortlySeen, joint.coverage.covered};
 }
 
@@ -228,7 +214,7 @@ void measure_gaps(const ScanCloud& cloud, const TransitionLine& candidate, Joint
   if (flat.narrow) return;
   // Narrow gaps show where a point happens to lie in them: their stripes err alike.
   const double step = downsampled > 0 ? steps / downsampled : 0;
-  flat.gap_deviation = std::sqrt(2.0) * std::hypot(kEndDeviation, step / std::sqrt(12.0));
+  flat.gap_deviation = std::sqrt(2.0) * std::hypot(kJoints.end_deviation, step / std::sqrt(12.0));
 }
 
 std::optional<Joint> joint_at(const ScanCloud& cloud, const std::vector<Face>& faces,

@@ -3,6 +3,9 @@
 #include <algorithm>
 #include <cmath>
 #include <map>
+#include <set>
+
+#include "services/seam_finding/joints/constants.hpp"
 
 namespace arcstart::seam_finding {
 namespace {
@@ -84,6 +87,48 @@ std::vector<Transition> transitions_between(const ScanCloud& cloud,
     }
   }
   return transitions;
+}
+
+Eigen::Vector3d place_of(const ScanCloud& cloud, const PlateFrame& frame,
+                         const Transition& transition) {
+  return frame.of((cloud.points[transition.last] + cloud.points[transition.first]) / 2);
+}
+
+std::vector<Transition> on_one_line(const ScanCloud& cloud, const PlateFrame& frame,
+                                    const std::vector<Transition>& transitions) {
+  std::vector<Eigen::Vector3d> places;
+  for (const Transition& transition : transitions)
+    places.push_back(place_of(cloud, frame, transition));
+  const std::size_t stride = 1 + transitions.size() / kJoints.drawn;
+  std::size_t most = 0;
+  std::vector<Transition> best;
+  for (std::size_t a = 0; a < places.size(); a += stride)
+    for (std::size_t b = a + stride; b < places.size(); b += stride) {
+      const double base = places[b].x() - places[a].x();
+      const double slope = (places[b].y() - places[a].y()) / base;
+      if (std::abs(base) < kJoints.least_base || std::abs(slope) > kJoints.steepest_line) continue;
+      std::set<int> sections;
+      std::vector<Transition> chosen;
+      for (std::size_t i = 0; i < places.size(); ++i) {
+        const double off = places[i].y() - places[a].y() - slope * (places[i].x() - places[a].x());
+        if (std::abs(off) <= kJoints.on_line && sections.insert(transitions[i].section).second)
+          chosen.push_back(transitions[i]);
+      }
+      if (chosen.size() > most) most = chosen.size(), best = std::move(chosen);
+    }
+  return best;
+}
+
+double share_of_sections(const ScanCloud& cloud, const std::vector<Section>& sections,
+                         const std::vector<Transition>& transitions) {
+  int first = transitions.front().section, last = first, known = 0;
+  for (const Transition& transition : transitions)
+    first = std::min(first, transition.section), last = std::max(last, transition.section);
+  for (int k = first; k <= last; ++k)
+    known += !cloud.organised() || cloud.stripes[k].seen != ScanStripe::Seen::kMissing
+                 ? !sections[k].empty()
+                 : 0;
+  return static_cast<double>(transitions.size()) / std::max(1, known);
 }
 
 }  // namespace arcstart::seam_finding

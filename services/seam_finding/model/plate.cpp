@@ -1,13 +1,8 @@
 #include "services/seam_finding/model/plate.hpp"
 
+#include "services/seam_finding/model/constants.hpp"
+
 namespace arcstart::seam_finding {
-
-namespace {
-
-constexpr std::size_t kLeastPiece = 3;
-constexpr int kPieceGap = 3;  // outliers do not part a piece: so many places in the stripe
-
-}  // namespace
 
 Eigen::Vector3d away_from_seam(const JointPlate& plate, const JointPlate& other) {
   const Eigen::Vector3d& n = plate.plane.normal;
@@ -22,12 +17,12 @@ std::vector<int> without_fragments(const ScanCloud& cloud, const std::vector<int
     for (last = first + 1; last < points.size(); ++last) {
       const PointOrigin &a = cloud.origins[points[last - 1]], &b = cloud.origins[points[last]];
       if (a.stripe != b.stripe || a.segment != b.segment ||
-          points[last] - points[last - 1] > kPieceGap)
+          points[last] - points[last - 1] > kModel.gap_places)
         break;
     }
     const bool ends =
         cloud.origins[points[first]].segment_end || cloud.origins[points[last - 1]].segment_end;
-    if (last - first + ends >= kLeastPiece)
+    if (last - first + ends >= kModel.sure_points)
       kept.insert(kept.end(), points.begin() + static_cast<std::ptrdiff_t>(first),
                   points.begin() + static_cast<std::ptrdiff_t>(last));
   }

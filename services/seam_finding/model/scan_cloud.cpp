@@ -1,12 +1,8 @@
 #include "services/seam_finding/model/scan_cloud.hpp"
 
+#include "services/seam_finding/model/constants.hpp"
+
 namespace arcstart::seam_finding {
-
-namespace {
-
-constexpr double kLeastMotion = 5;  // mm
-
-}  // namespace
 
 void end_stripe(ScanCloud& cloud, ScanStripe::Seen seen, const Eigen::Vector3d& camera_centre,
                 const Eigen::Vector3d& tool_position) {
@@ -37,7 +33,7 @@ std::optional<Eigen::Vector3d> search_direction(const ScanCloud& cloud) {
   }
   if (first == nullptr) return std::nullopt;
   const Eigen::Vector3d way = last->tool_position - first->tool_position;
-  if (way.norm() < kLeastMotion) return std::nullopt;
+  if (way.norm() < kModel.least_motion) return std::nullopt;
   return way.normalized();
 }
 

@@ -4,22 +4,17 @@
 #include <algorithm>
 #include <limits>
 
+#include "services/seam_finding/planes/constants.hpp"
+
 namespace arcstart::seam_finding {
 namespace {
-
-// A strip agrees with a line within so many deviations of its mean, and of a point's noise.
-constexpr double kDeviations = 2.5, kLeastNoise = 0.25;
-// The reflection's shift is greatest between so near the line and a share of the farthest strip's
-// distance; by so many strips less must they be off a line for it.
-constexpr double kNearestShift = 3, kFarthestShift = 0.7;  // mm
-constexpr double kShiftStep = 1.2;
-constexpr double kShiftShown = 2.4;
 
 // The one by which the strips lie on a line best, in least squares.
 InterreflectionShift interreflection_shift(const StripMeans& strips) {
   InterreflectionShift best;
   double least = std::numeric_limits<double>::infinity();
-  for (double at = kNearestShift; at < kFarthestShift * strips.back().distance; at *= kShiftStep) {
+  for (double at = kPlanes.nearest_shift; at < kPlanes.farthest_shift * strips.back().distance;
+       at *= kPlanes.shift_step) {
     const InterreflectionShift shape{1, at};
     Eigen::Matrix3d squares = Eigen::Matrix3d::Zero();
     Eigen::Vector3d products = Eigen::Vector3d::Zero();
@@ -81,15 +76,17 @@ InLine in_line(const StripMeans& strips, double agree) {
 ConsistentStrips consistent_strips(const StripMeans& strips, double noise) {
   double points = 0;
   for (const Strip& strip : strips) points += strip.points;
-  const double agree = noise * std::max(kLeastNoise, kDeviations * std::sqrt(kStrips / points));
+  const double agree =
+      noise * std::max(kPlanes.strip_noise, kPlanes.strip_deviations * std::sqrt(kStrips / points));
   ConsistentStrips agreed;
   InLine line = in_line(strips, agree);
-  if (line.off > kShiftShown) {
+  if (line.off > kPlanes.shift_shown) {
     const InterreflectionShift shift = interreflection_shift(strips);
     StripMeans lowered = strips;
     for (Strip& strip : lowered) strip.height -= shift(strip.distance);
     const InLine without_shift = in_line(lowered, agree);
-    if (without_shift.off + kShiftShown < line.off) line = without_shift, agreed.shift = shift;
+    if (without_shift.off + kPlanes.shift_shown < line.off)
+      line = without_shift, agreed.shift = shift;
   }
   agreed.strips = 2 * line.strips.count() < kStrips ? line.strips.set() : line.strips;
   return agreed;

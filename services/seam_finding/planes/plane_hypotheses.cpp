@@ -3,11 +3,12 @@
 #include <algorithm>
 #include <cmath>
 
+#include "services/seam_finding/planes/constants.hpp"
+
 namespace arcstart::seam_finding {
 
 std::size_t jury_step(std::size_t points) {
-  constexpr std::size_t kJury = 4096;
-  return std::max<std::size_t>(1, (points + kJury - 1) / kJury);
+  return std::max<std::size_t>(1, (points + kCloud.sample - 1) / kCloud.sample);
 }
 
 std::vector<Eigen::Vector3d> every(std::size_t step, std::size_t first,

@@ -10,15 +10,14 @@
 #include "services/seam_finding/cloud/connected_components.hpp"
 #include "services/seam_finding/cloud/neighbour_grid.hpp"
 #include "services/seam_finding/cloud/plane_points.hpp"
+#include "services/seam_finding/fit/order_statistics.hpp"
 #include "services/seam_finding/fit/plane_fit.hpp"
+#include "services/seam_finding/planes/constants.hpp"
 #include "services/seam_finding/planes/plane_hypotheses.hpp"
 #include "services/seam_finding/planes/stripe_planes.hpp"
 
 namespace arcstart::seam_finding {
 namespace {
-
-constexpr std::size_t kFirstLook = 256;  // of those, after which a poor one is given up
-constexpr int kRefits = 5;
 
 // std::uniform_int_distribution and std::shuffle differ between standard libraries; this does not.
 class Dice {
@@ -71,7 +70,7 @@ class Jury {
   // Points of the largest connected piece on the plane; 0 where it is plain early that they are not
   // more than `most`.
   int worth(const Plane& plane, int most) {
-    const std::size_t first = std::min(kFirstLook, points_.size());
+    const std::size_t first = std::min(kPlanes.first_look, points_.size());
     int near = side_by_side_.count_near(plane, search_.tolerance, 0, first);
     const double expected = static_cast<double>(most) * static_cast<double>(first) /
                             static_cast<double>(points_.size());
@@ -142,7 +141,7 @@ struct Sought {
 Face grow(Sought& sought, Plane plane, const PlaneSearch& search) {
   Face face;
   std::vector<int> near, before, inside;
-  for (int pass = 0; pass < kRefits; ++pass) {
+  for (int pass = 0; pass < kPlanes.growths; ++pass) {
     face.plane = plane;
     sought.left.find_near(plane, search.tolerance, near);
     if (pass > 0 && near == before) break;  // the same points have the same plane
@@ -177,13 +176,12 @@ std::optional<Plane> drawn_plane(const Sought& sought, const PlaneSearch& search
 // a crowded cell 256 points are looked at.
 std::array<double, 4> nearest_four(const NeighbourGrid& grid, int point,
                                    const std::vector<char>& chosen) {
-  constexpr std::size_t kCrowd = 256;
   std::array<double, 4> nearest;
   nearest.fill(INFINITY);
   const Eigen::Vector3d& centre = grid.points()[static_cast<std::size_t>(point)];
   grid.for_each_around(grid.cell_of(centre), [&](int cell) {
     const auto inside = grid.points_in(cell);
-    for (std::size_t k = 0; k < inside.size(); k += 1 + inside.size() / kCrowd) {
+    for (std::size_t k = 0; k < inside.size(); k += 1 + inside.size() / kCloud.crowd) {
       const auto other = static_cast<std::size_t>(inside[k]);
       if (!chosen[other] || inside[k] == point) continue;
       double squared = (grid.points()[other] - centre).squaredNorm();
@@ -204,9 +202,7 @@ double spacing_of(const NeighbourGrid& grid, const std::vector<int>& points) {
     const double squared = nearest_four(grid, points[i], chosen).back();
     fourth.push_back(std::isinf(squared) ? grid.cell_size() : std::sqrt(squared));
   }
-  const auto middle = fourth.begin() + static_cast<std::ptrdiff_t>(fourth.size() / 2);
-  std::nth_element(fourth.begin(), middle, fourth.end());
-  return *middle;
+  return median(fourth);
 }
 
 }  // namespace

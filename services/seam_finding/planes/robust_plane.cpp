@@ -9,22 +9,12 @@
 #include <optional>
 
 #include "services/seam_finding/fit/biweight_sums.hpp"
+#include "services/seam_finding/fit/order_statistics.hpp"
+#include "services/seam_finding/planes/constants.hpp"
 #include "services/seam_finding/planes/interreflection.hpp"
 
 namespace arcstart::seam_finding {
 namespace {
-
-constexpr std::size_t kLeastPoints = 20;
-constexpr double kTukey = 4.685;               // standard deviations
-constexpr double kMedianToDeviation = 1.4826;  // of normal noise
-constexpr std::size_t kBins = 1024;            // of the points' distances from the line
-constexpr std::size_t kTellSpread = 1024;      // points, evenly taken, of a plate
-constexpr double kRoughness = 1.5;  // a plate's spread over the cloud's noise that is no roughness
-constexpr double kLeastSpread = 3;  // of a plate's points within their plane, over their noise
-// A step that changes nothing any more: the noise leaves the height of a plane of thousands of
-// points uncertain by a hundred times as much. mm, and over kReach.
-constexpr double kSettled = 1e-5;
-constexpr double kReach = 60;  // mm
 
 // Points as heights above a first plane, at places in it: there all numbers are small or need not
 // be exact, so that floats do, side by side. The line lies in that plane.
@@ -37,7 +27,7 @@ class Heights {
     origin_ = line.point - first.signed_distance(line.point) * normal_;
     const std::size_t padded = whole_registers(points.size());
     a_.assign(padded, 0), b_.assign(padded, 0), distance_.assign(padded, 0);
-    h_.assign(padded, kFarOff);
+    h_.assign(padded, kPlanes.far_off);
     count_ = points.size();
     for (std::size_t i = 0; i < count_; ++i) {
       const Eigen::Vector3d p = points[i] - origin_;
@@ -76,8 +66,6 @@ class Heights {
   Heights chosen(const std::vector<std::uint8_t>& strip_of, const Strips& strips) const;
 
  private:
-  static constexpr float kFarOff = 1e9f;  // mm: no limit reaches so far
-
   Eigen::Vector3d normal_, along_, across_, origin_;
   std::size_t count_ = 0;
   std::vector<float> a_, b_, h_, distance_;  // filled up to whole registers
@@ -90,20 +78,22 @@ Heights::Model Heights::narrowed(Model model, double noise,
   double settled_at = 0;
   for (const double limit : limits) {
     if (limit == settled_at) continue;
-    const BiweightSums s = biweight_sums({a_.data(), b_.data(), h_.data(), h_.size()}, model.offset,
-                                         model.along, model.across, limit * kTukey * noise);
-    if (s.w < static_cast<double>(kLeastPoints / 2)) return model;
+    const BiweightSums s =
+        biweight_sums({a_.data(), b_.data(), h_.data(), h_.size()}, model.offset, model.along,
+                      model.across, limit * kFit.tukey_limit * noise);
+    if (s.w < static_cast<double>(kFit.plane_points / 2)) return model;
     // Of the smaller spread within the plane.
     const double ma = s.a / s.w, mb = s.b / s.w;
     const double vaa = s.aa / s.w - ma * ma, vab = s.ab / s.w - ma * mb, vbb = s.bb / s.w - mb * mb;
     const double least = (vaa + vbb) / 2 - std::hypot((vaa - vbb) / 2, vab);
-    if (!(least > kLeastSpread * noise * kLeastSpread * noise)) return model;
+    if (!(least > kPlanes.least_extent * noise * kPlanes.least_extent * noise)) return model;
     Eigen::Matrix3d normal_equations;
     normal_equations << s.w, s.a, s.b, s.a, s.aa, s.ab, s.b, s.ab, s.bb;
     const Eigen::Vector3d step = normal_equations.inverse() * Eigen::Vector3d(s.r, s.ra, s.rb);
     model.offset += step[0], model.along += step[1], model.across += step[2];
-    const double change = std::abs(step[0]) + kReach * (std::abs(step[1]) + std::abs(step[2]));
-    settled_at = change < kSettled ? limit : 0;
+    const double change =
+        std::abs(step[0]) + kPlanes.fit_reach * (std::abs(step[1]) + std::abs(step[2]));
+    settled_at = change < kPlanes.settled ? limit : 0;
   }
   return model;
 }
@@ -111,21 +101,19 @@ Heights::Model Heights::narrowed(Model model, double noise,
 Heights Heights::chosen(const std::vector<std::uint8_t>& strip_of, const Strips& strips) const {
   Heights some = *this;
   for (std::size_t i = 0; i < count_; ++i)
-    if (!strips[strip_of[i]]) some.h_[i] = kFarOff;
+    if (!strips[strip_of[i]]) some.h_[i] = kPlanes.far_off;
   return some;
 }
 
 // Standard deviation of the points from a plane, as their median distance tells it; mm. A plate may
 // be rougher than the cloud is where it is smoothest.
 double spread_about(const Heights& points, const Heights::Model& model) {
-  const std::size_t every = 1 + points.size() / kTellSpread;
+  const std::size_t every = 1 + points.size() / kPlanes.spread_sample;
   std::vector<float> distances;
   distances.reserve(points.size() / every + 1);
   for (std::size_t i = 0; i < points.size(); i += every)
     distances.push_back(static_cast<float>(std::abs(points.residual(model, i))));
-  const auto middle = distances.begin() + static_cast<std::ptrdiff_t>(distances.size() / 2);
-  std::nth_element(distances.begin(), middle, distances.end());
-  return kMedianToDeviation * *middle;
+  return kFit.median_to_deviation * median(distances);
 }
 
 // The strip along the line that each point lies in: strips of equal numbers, counted from the line
@@ -135,15 +123,15 @@ std::vector<std::uint8_t> strips_of(const Heights& points) {
   float low = points.distance(0), high = low;
   for (std::size_t i = 0; i < points.size(); ++i)
     low = std::min(low, points.distance(i)), high = std::max(high, points.distance(i));
-  const float bins_each_mm = (kBins - 1) / std::max(high - low, 1e-6f);
+  const float bins_each_mm = (kPlanes.bins - 1) / std::max(high - low, 1e-6f);
   std::vector<std::uint16_t> bins(points.size());
-  std::array<int, kBins + 1> begins{};  // of each bin's points in their order
+  std::array<int, kPlanes.bins + 1> begins{};  // of each bin's points in their order
   for (std::size_t i = 0; i < points.size(); ++i) {
     bins[i] = static_cast<std::uint16_t>((points.distance(i) - low) * bins_each_mm);
     ++begins[bins[i] + 1u];
   }
   std::partial_sum(begins.begin(), begins.end(), begins.begin());
-  std::array<int, kBins + 1> next = begins;
+  std::array<int, kPlanes.bins + 1> next = begins;
   std::vector<int> order(points.size());
   for (std::size_t i = 0; i < points.size(); ++i) order[next[bins[i]]++] = static_cast<int>(i);
   std::vector<std::uint8_t> strips(points.size());
@@ -165,7 +153,7 @@ std::optional<StripMeans> means_of(const Heights& points, const std::vector<std:
   StripMeans strips{};
   for (std::size_t i = 0; i < points.size(); ++i) {
     const double height = points.residual(model, i);
-    if (std::abs(height) > kTukey * noise) continue;
+    if (std::abs(height) > kFit.tukey_limit * noise) continue;
     Strip& strip = strips[strip_of[i]];
     strip.distance += points.distance(i), strip.height += height, ++strip.points;
   }
@@ -180,12 +168,12 @@ std::optional<StripMeans> means_of(const Heights& points, const std::vector<std:
 
 Plane robust_plane(const std::vector<Eigen::Vector3d>& points, const Line& line, const Plane& plane,
                    double noise) {
-  if (points.size() < kLeastPoints) return plane;
+  if (points.size() < kFit.plane_points) return plane;
   Heights heights(points, line, plane);
-  double allowed = std::max(noise, spread_about(heights, {}) / kRoughness);
+  double allowed = std::max(noise, spread_about(heights, {}) / kPlanes.roughness);
   Heights::Model model =
       heights.narrowed({}, allowed, {4.0, 4.0, 2.0, 2.0, 1.0, 1.0, 0.6, 0.6, 0.6, 0.6});
-  allowed = std::max(noise, spread_about(heights, model) / kRoughness);
+  allowed = std::max(noise, spread_about(heights, model) / kPlanes.roughness);
   const auto strip_of = strips_of(heights);
   const auto strips = means_of(heights, strip_of, model, allowed);
   if (!strips) return heights.plane(model);

@@ -6,16 +6,10 @@
 #include <utility>
 
 #include "services/seam_finding/fit/plane_fit.hpp"
+#include "services/seam_finding/planes/constants.hpp"
 
 namespace arcstart::seam_finding {
 namespace {
-
-constexpr int kGap = 3;  // places in a stripe: outliers do not part a piece
-constexpr std::size_t kLeastPoints = 3, kMostPoints = 64;  // of a piece
-constexpr std::size_t kMostPieces = 64;                    // of a stripe: the longest
-constexpr int kSkipped = 3;             // a piece goes on in one of so many stripes behind it
-constexpr std::size_t kLeastChain = 3;  // pieces
-constexpr double kParallel = 0.02;      // and what the pieces' lengths leave open; rad
 
 struct Piece {
   int stripe = 0;
@@ -40,7 +34,7 @@ struct Piece {
 // Parts a run where it is farthest from its chord, until it is nowhere farther than the tolerance.
 void part(const ScanCloud& cloud, std::span<const int> run, double tolerance,
           std::vector<Piece>& pieces) {
-  if (run.size() < kLeastPoints) return;
+  if (run.size() < kModel.sure_points) return;
   const Eigen::Vector3d& from = cloud.points[run.front()];
   const Eigen::Vector3d chord = cloud.points[run.back()] - from;
   if (!(chord.norm() > tolerance)) return;
@@ -65,20 +59,20 @@ std::vector<Piece> straight_pieces(const ScanCloud& cloud, const std::vector<int
                                    double tolerance) {
   std::vector<Piece> pieces, of_stripe;
   const auto close_stripe = [&] {
-    if (of_stripe.size() > kMostPieces) {
+    if (of_stripe.size() > kPlanes.stripe_pieces) {
       std::stable_sort(of_stripe.begin(), of_stripe.end(),
                        [](const Piece& a, const Piece& b) { return a.length > b.length; });
-      of_stripe.resize(kMostPieces, of_stripe.front());
+      of_stripe.resize(kPlanes.stripe_pieces, of_stripe.front());
     }
     std::move(of_stripe.begin(), of_stripe.end(), std::back_inserter(pieces));
     of_stripe.clear();
   };
   for (std::size_t first = 0, last = 0; first < indices.size(); first = last) {
     const PointOrigin& origin = cloud.origins[indices[first]];
-    for (last = first + 1; last < indices.size() && last - first < kMostPoints; ++last)
+    for (last = first + 1; last < indices.size() && last - first < kPlanes.piece_points; ++last)
       if (cloud.origins[indices[last]].stripe != origin.stripe ||
           cloud.origins[indices[last]].segment != origin.segment ||
-          indices[last] - indices[last - 1] > kGap)
+          indices[last] - indices[last - 1] > kModel.gap_places)
         break;
     if (!of_stripe.empty() && of_stripe.front().stripe != origin.stripe) close_stripe();
     part(cloud, std::span(indices).subspan(first, last - first), tolerance, of_stripe);
@@ -93,7 +87,7 @@ bool beside(const Piece& a, const Piece& b, double connection) {
 }
 
 bool parallel(const Piece& a, const Piece& b, double tolerance) {
-  const double open = kParallel + 2 * tolerance * (1 / a.length + 1 / b.length);
+  const double open = kPlanes.parallel_pieces + 2 * tolerance * (1 / a.length + 1 / b.length);
   return a.direction.cross(b.direction).norm() <= open;
 }
 
@@ -119,7 +113,7 @@ Chain chain_from(Piece& first, std::span<Piece> behind, const PlaneSearch& searc
   for (Piece& piece : behind) {
     if (piece.stripe != stripe) join(), stripe = piece.stripe;
     const Piece& last = *chain.pieces.back();
-    if (piece.stripe > last.stripe + kSkipped) break;
+    if (piece.stripe > last.stripe + kModel.stripes_in_a_row) break;
     if (piece.stripe == last.stripe || piece.taken || !beside(last, piece, search.connection))
       continue;
     if (chain.pieces.size() == 1
@@ -144,7 +138,7 @@ std::vector<Plane> planes_of_stripes(const ScanCloud& cloud, const std::vector<i
   for (std::size_t i = 0; i < pieces.size(); ++i) {
     if (pieces[i].taken) continue;
     const Chain chain = chain_from(pieces[i], std::span(pieces).subspan(i + 1), search);
-    if (chain.pieces.size() < kLeastChain) continue;
+    if (chain.pieces.size() < kModel.plane_stripes) continue;
     for (Piece* piece : chain.pieces) piece->taken = true;
     if (!search.accept || search.accept(chain.plane))
       found.emplace_back(chain.sums.weight(), chain.plane);

@@ -3,27 +3,20 @@
 #include <algorithm>
 #include <cmath>
 
+#include "services/seam_finding/visibility/constants.hpp"
 #include "services/seam_finding/visibility/plate_stripes.hpp"
 
 namespace arcstart::seam_finding {
 namespace {
-
-constexpr double kNearSeam = 3, kBeside = 20;  // in a plate, where it would be; mm
-constexpr double kReach = 60;                  // what stands before a seam lies so near it; mm
-constexpr double kStandsBefore = 2;            // mm
-constexpr double kShadow = 1.2, kAside = 3;    // of a thing: so long for its height, and mm
-constexpr int kLeastSeen = 3;                  // points
-// Of so many stripes one that shows something past a plate shows a reflection.
-constexpr int kLoneReflection = 4;
 
 // Points of a stripe before both plates.
 int points_before(const ScanCloud& cloud, const std::array<JointPlate, 2>& plates, const Line& line,
                   const ScanStripe& stripe) {
   int before = 0;
   for (int i = stripe.first; i < stripe.first + stripe.count; ++i)
-    before += plates[0].plane.signed_distance(cloud.points[i]) > kStandsBefore &&
-              plates[1].plane.signed_distance(cloud.points[i]) > kStandsBefore &&
-              line.distance(cloud.points[i]) < kReach;
+    before += plates[0].plane.signed_distance(cloud.points[i]) > kVisibility.stands_before &&
+              plates[1].plane.signed_distance(cloud.points[i]) > kVisibility.stands_before &&
+              line.distance(cloud.points[i]) < kVisibility.before_reach;
   return before;
 }
 
@@ -38,7 +31,7 @@ int points_past(const ScanCloud& cloud, const std::array<JointPlate, 2>& plates,
       const auto through = seen_through(cloud, plates[j].plane, i, 2 * tolerance);
       if (!through) continue;
       const double r = away_from_seam(plates[j], plates[1 - j]).dot(*through - line.point);
-      past[j] += r > kNearSeam && r < kBeside;
+      past[j] += r > kVisibility.near_seam && r < kModel.straight_beside;
     }
   }
   return std::max(past[0], past[1]);
@@ -55,17 +48,18 @@ bool occluded_between(const ScanCloud& cloud, const std::array<JointPlate, 2>& p
     if (station.stripe < 0) return false;
     if (!station.known || stations.both(station)) continue;
     ++stripes;
-    past += points_past(cloud, plates, line, stations, station, tolerance) >= kLeastSeen;
-    hidden += points_before(cloud, plates, line, cloud.stripes[station.stripe]) >= kLeastSeen;
+    past += points_past(cloud, plates, line, stations, station, tolerance) >= kModel.sure_points;
+    hidden +=
+        points_before(cloud, plates, line, cloud.stripes[station.stripe]) >= kModel.sure_points;
   }
-  return hidden > 0 && (past == 0 || (past == 1 && stripes >= kLoneReflection));
+  return hidden > 0 && (past == 0 || (past == 1 && stripes >= kVisibility.lone_reflection));
 }
 
 bool stands_before(const ScanCloud& cloud, const std::array<JointPlate, 2>& plates,
                    const Line& line, const Stations& stations, double along, double around) {
   return std::any_of(stations.list.begin(), stations.list.end(), [&](const Station& station) {
     return station.stripe >= 0 && std::abs(station.along - along) <= around &&
-           points_before(cloud, plates, line, cloud.stripes[station.stripe]) >= kLeastSeen;
+           points_before(cloud, plates, line, cloud.stripes[station.stripe]) >= kModel.sure_points;
   });
 }
 
@@ -74,11 +68,13 @@ bool may_hide(const ScanCloud& cloud, const JointPlate& plate, const JointPlate&
   int hiding = 0;
   for (const Eigen::Vector3d& point : cloud.points) {
     const double height = plate.plane.signed_distance(point);
-    if (height <= kStandsBefore || other.plane.signed_distance(point) <= kStandsBefore) continue;
+    if (height <= kVisibility.stands_before ||
+        other.plane.signed_distance(point) <= kVisibility.stands_before)
+      continue;
     const Eigen::Vector3d beside = point - place - height * plate.plane.normal;
-    hiding += beside.norm() <= kShadow * height + kAside;
+    hiding += beside.norm() <= kVisibility.hidden_slope * height + kVisibility.hidden_beside;
   }
-  return hiding >= kLeastSeen;
+  return hiding >= kModel.sure_points;
 }
 
 }  // namespace arcstart::seam_finding

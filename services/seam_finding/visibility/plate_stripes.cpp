@@ -3,15 +3,11 @@
 #include <algorithm>
 #include <cmath>
 
+#include "services/seam_finding/fit/order_statistics.hpp"
+#include "services/seam_finding/visibility/constants.hpp"
+
 namespace arcstart::seam_finding {
 namespace {
-
-constexpr double kGap = 4;           // between points on one piece of a plate, at most; mm
-constexpr int kLeastBehind = 2;      // points that chance does not put behind a plate
-constexpr double kLeastSight = 0.1;  // sine of the angle between a line of sight and a plate
-// What lies in a plate rises from it by no more, mm for each mm, and that many deviations for its
-// noise. What is longer does lie in it; mm.
-constexpr double kRise = 0.04, kSureRise = 2.5, kLong = 15;
 
 // Leaves out short stretches of neighbours that rise from the plane all the way.
 void drop_askew(const ScanCloud& cloud, const Plane& plane, double noise, std::vector<int>& run) {
@@ -22,7 +18,7 @@ void drop_askew(const ScanCloud& cloud, const Plane& plane, double noise, std::v
       ++end;
     const Eigen::Vector3d &first = cloud.points[*begin], way = cloud.points[end[-1]] - first;
     bool askew = false;
-    if (end - begin > 2 && way.norm() < kLong) {
+    if (end - begin > 2 && way.norm() < kVisibility.long_piece) {
       const Eigen::Vector3d direction = way.normalized();
       double n = 0, s = 0, h = 0, ss = 0, sh = 0;
       for (auto i = begin; i != end; ++i) {
@@ -31,7 +27,8 @@ void drop_askew(const ScanCloud& cloud, const Plane& plane, double noise, std::v
         n += 1, s += along, h += height, ss += along * along, sh += along * height;
       }
       const double spread = ss - s * s / n;
-      askew = std::abs(sh - s * h / n) > kRise * spread + kSureRise * noise * std::sqrt(spread);
+      askew = std::abs(sh - s * h / n) >
+              kVisibility.rise * spread + kVisibility.sure_rise * noise * std::sqrt(spread);
     }
     kept = askew ? kept : std::move(begin, end, kept);
   }
@@ -47,10 +44,7 @@ double usual_reach(const ScanCloud& cloud, const PlateStripes& stripes) {
       reach = std::max(reach, stripes.away.dot(cloud.points[i] - stripes.line.point));
     if (reach > 0) reaches.push_back(reach);
   }
-  if (reaches.empty()) return 0;
-  const auto middle = reaches.begin() + static_cast<std::ptrdiff_t>(reaches.size() / 2);
-  std::nth_element(reaches.begin(), middle, reaches.end());
-  return *middle;
+  return median(reaches);
 }
 
 }  // namespace
@@ -61,7 +55,7 @@ std::optional<Eigen::Vector3d> seen_through(const ScanCloud& cloud, const Plane&
   if (depth <= tolerance) return std::nullopt;
   const Eigen::Vector3d sight = (cloud.points[point] - cloud.seen_from(point)).normalized();
   const double toward = -plane.normal.dot(sight);
-  if (toward < kLeastSight) return std::nullopt;
+  if (toward < kVisibility.least_sight) return std::nullopt;
   return cloud.points[point] - sight * (depth / toward);
 }
 
@@ -88,7 +82,8 @@ PlateStripes plate_stripes(const ScanCloud& cloud, const JointPlate& plate, cons
   for (std::size_t k = 0; k < stripes.runs.size(); ++k) {
     std::vector<int>& run = stripes.runs[k];
     const auto parted = std::adjacent_find(run.begin(), run.end(), [&](int a, int b) {
-      return b > a + 1 && std::abs(reach(cloud.points[b]) - reach(cloud.points[a])) > kGap;
+      return b > a + 1 &&
+             std::abs(reach(cloud.points[b]) - reach(cloud.points[a])) > kVisibility.piece_gap;
     });
     if (parted == run.end()) continue;
     std::vector<double> reaches, behind;
@@ -100,9 +95,9 @@ PlateStripes plate_stripes(const ScanCloud& cloud, const JointPlate& plate, cons
         behind.push_back(reach(*through));
     for (std::size_t j = 1; j < reaches.size(); ++j) {
       const double from = reaches[j - 1], to = reaches[j];
-      if (to - from <= kGap || std::count_if(behind.begin(), behind.end(), [&](double r) {
-                                 return r > from && r < to;
-                               }) < kLeastBehind)
+      if (to - from <= kVisibility.piece_gap ||
+          std::count_if(behind.begin(), behind.end(),
+                        [&](double r) { return r > from && r < to; }) < kModel.sure_off_plate)
         continue;
       std::erase_if(run, [&](int i) { return reach(cloud.points[i]) >= to; });
       break;

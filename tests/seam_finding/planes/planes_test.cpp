@@ -1,6 +1,7 @@
 #include "services/seam_finding/planes/planes.hpp"
 
 #include <catch2/catch.hpp>
+#include <numeric>
 #include <random>
 
 #include "common/geometry.hpp"
@@ -155,12 +156,19 @@ TEST_CASE("the same seed gives the same faces, bit by bit") {
   }
 }
 
-TEST_CASE("the largest component is told from the rest by gaps alone") {
+TEST_CASE("the largest piece is parted from the rest by gaps alone") {
   std::vector<Eigen::Vector3d> points;
   for (int i = 0; i < 50; ++i) points.emplace_back(i, 0, 0);
   for (int i = 0; i < 80; ++i) points.emplace_back(200 + 0.5 * i, 0, 0);
-  CHECK(largest_component(points, 4).size() == 80);
-  CHECK(largest_component(points, 4).front() == 50);
-  CHECK(largest_component(points, 150).size() == 130);
-  CHECK(largest_component({}, 4).empty());
+  const auto largest = [&](double cell_mm) {
+    std::vector<int> chosen(points.size());
+    std::iota(chosen.begin(), chosen.end(), 0);
+    Pieces(NeighbourGrid(points, cell_mm)).keep_largest(chosen);
+    return chosen;
+  };
+  CHECK(largest(4).size() == 80);
+  CHECK(largest(4).front() == 50);
+  CHECK(largest(150).size() == 130);
+  points.clear();
+  CHECK(largest(4).empty());
 }

@@ -1,0 +1,25 @@
+// Numbers of what is said of a seam. Behind the dash stands the source; "bench": none is known,
+// scripts/bench seam judges the number.
+#pragma once
+
+#include "services/seam_finding/cloud/constants.hpp"
+
+namespace arcstart::seam_finding {
+
+struct AnswerConstants {
+  // mm; standard deviation of a plane's height that all its points have in common; and of the seam
+  // across, whatever the number of its places - bench.
+  double height_floor = 0.005, across_floor = 0.02;
+  // mm; a seam that is nowhere farther from its line is straight - bench.
+  double straight = 0.5;
+  // Of the open angle, between the torch and a plate, at least - none known.
+  double least_torch_share = 0.1;
+  // mm; from the seam, where a plate is straight again - bench.
+  double straight_from = 4;
+  // mm; a bead lies so near the seam: a fillet's on the plates, that of parallel plates on their
+  // top. And stands so far before both - bench.
+  double tack_reach = 8, parallel_tack_reach = 6, tack_height = 1;
+};
+inline constexpr AnswerConstants kAnswer;
+
+}  // namespace arcstart::seam_finding
