@@ -8,6 +8,7 @@
 // which names its keys once, for reading and for writing. Keys carry their unit.
 #pragma once
 
+#include <algorithm>
 #include <array>
 #include <functional>
 #include <memory>
@@ -55,6 +56,10 @@ inline Positive positive() { return {}; }
 inline NotNegative not_negative() { return {}; }
 inline OneOf one_of(std::vector<std::string> choices) { return {std::move(choices)}; }
 
+struct Names {
+  std::vector<std::string> all;
+};
+
 // Reads one section; every key must be known, of the right type and possible.
 class SectionReader {
  public:
@@ -65,6 +70,15 @@ class SectionReader {
                   const std::type_identity_t<Condition<T>>& condition = {}) {
     if (!read(key, value) || !condition) return;
     if (const std::string why = condition(value); !why.empty()) refuse(key, why);
+  }
+  // One of an enumeration's values, by its name; names: of all its values, in their order.
+  template <class Enum>
+  requires std::is_enum_v<Enum>
+  void operator()(const std::string& key, Enum& value, const Names& names) {
+    std::string name = names.all[static_cast<std::size_t>(value)];
+    (*this)(key, name, one_of(names.all));
+    value =
+        static_cast<Enum>(std::find(names.all.begin(), names.all.end(), name) - names.all.begin());
   }
   void refuse_unknown_keys() const;
 
@@ -99,6 +113,11 @@ class SectionWriter {
   void operator()(const std::string& key, const T& value,
                   const std::type_identity_t<Condition<T>>& = {}) {
     add(key, write(value));
+  }
+  template <class Enum>
+  requires std::is_enum_v<Enum>
+  void operator()(const std::string& key, const Enum& value, const Names& names) {
+    add(key, write(names.all[static_cast<std::size_t>(value)]));
   }
   const std::string& text() const { return text_; }
 

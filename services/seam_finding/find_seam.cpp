@@ -42,8 +42,8 @@ SeamResult not_found(Choice choice) {
 std::array<SeamEnd, 2> find_ends(const ScanCloud& cloud, const Joint& joint, const Scales& scales,
                                  const SeamFindingSettings& settings) {
   auto ends = geometry_of(joint).ends(cloud, joint, scales, settings);
-  if (settings.start_rule == "stripe") ends[0].along = joint.coverage.begin;
-  if (settings.start_rule == "centroid" && !joint.parallel)
+  if (settings.start_rule == StartRule::kStripe) ends[0].along = joint.coverage.begin;
+  if (settings.start_rule == StartRule::kCentroid && !joint.parallel)
     ends[0].along =
         centroid_of_first(cloud, joint.plates, joint.line, joint.coverage, settings.start_points);
   return ends;
@@ -54,7 +54,7 @@ Findings measure(const ScanCloud& cloud, const Joint& joint, const Scales& scale
   const JointGeometry& geometry = geometry_of(joint);
   Findings findings;
   findings.ends = find_ends(cloud, joint, scales, settings);
-  if (settings.start_rule == "edges")
+  if (settings.start_rule == StartRule::kEdges)
     findings.accuracy = geometry.accuracy(cloud, joint, findings.ends, scales, settings);
   const auto along = [&](const SeamEnd& end) { return joint.line.along(joint.line.at(end.along)); };
   findings.stations =
@@ -81,7 +81,7 @@ SeamResult find_seam(const ScanCloud& cloud, const Background& background,
 SeamResult find_seam(const ScanCloud& cloud, const Segmentation& segmentation,
                      const DownsampledCloud& fewer, const SeamFindingSettings& settings,
                      std::uint64_t seed) {
-  const bool as_in_the_paper = settings.plane_rule == "largest";  // it counts all points
+  const bool as_in_the_paper = settings.plane_rule == PlaneRule::kLargest;  // it counts all points
   const DownsampledCloud none;
   const ScanView scan(cloud, segmentation, as_in_the_paper ? none : fewer);
   const ScanCloud& some = scan.points_for(Stage::kSearch);

@@ -7,18 +7,22 @@
 
 namespace arcstart::seam_finding {
 
+enum class BackgroundRule { kSurface, kNeighbours };
+enum class PlaneRule { kRanked, kLargest };
+enum class StartRule { kEdges, kStripe, kCentroid };
+
 struct SeamFindingSettings {
   // Background. `surface`: nearer than the distance to the background's local surface.
   // `neighbours`: the paper's rule, the K-th nearest background point is nearer than that; it needs
   // stripes closer together than the distance.
-  std::string background_rule = "surface";
+  BackgroundRule background_rule = BackgroundRule::kSurface;
   double background_distance_mm = 1.5;
   int background_neighbours = 3;  // K
 
   // Planes. `ranked`: all planes of what is left, and of all their pairs the best joint. `largest`:
   // the paper's way, the largest plane and the largest second one under Eq. 6; it takes a large box
   // for the workpiece.
-  std::string plane_rule = "ranked";
+  PlaneRule plane_rule = PlaneRule::kRanked;
   int planes_max = 16;
   int plane_points_min = 30;  // a plane of fewer points is none
   double plane_tolerance_mm =
@@ -51,7 +55,7 @@ struct SeamFindingSettings {
   // leave it, at their full resolution. `stripe`: half-way between the first stripe that crosses
   // both plates and the one before it. `centroid`: the paper's way, the centroid of the first x
   // points of both plates along the seam.
-  std::string start_rule = "edges";
+  StartRule start_rule = StartRule::kEdges;
   int start_points = 10;  // x
   // So many pixels before the edge of what it lies on a segment ends, square to the edge in the
   // image, whatever the slant at which the stripe crosses it. The extraction puts them at the edge;
@@ -83,10 +87,10 @@ struct SeamFindingSettings {
 
   template <class Visitor>
   void visit(Visitor& visitor) {
-    visitor("background_rule", background_rule, one_of({"surface", "neighbours"}));
+    visitor("background_rule", background_rule, Names{{"surface", "neighbours"}});
     visitor("background_distance_mm", background_distance_mm, between(0.05, 20));
     visitor("background_neighbours", background_neighbours, between(1, 50));
-    visitor("plane_rule", plane_rule, one_of({"ranked", "largest"}));
+    visitor("plane_rule", plane_rule, Names{{"ranked", "largest"}});
     visitor("planes_max", planes_max, between(2, 64));
     visitor("plane_points_min", plane_points_min, between(10, 100000));
     visitor("plane_tolerance_mm", plane_tolerance_mm, between(0, 20));
@@ -106,7 +110,7 @@ struct SeamFindingSettings {
     visitor("refit_distance_mm", refit_distance_mm, between(5, 500));
     visitor("outlier_neighbours", outlier_neighbours, between(0, 100));
     visitor("outlier_deviations", outlier_deviations, between(0.5, 20));
-    visitor("start_rule", start_rule, one_of({"edges", "stripe", "centroid"}));
+    visitor("start_rule", start_rule, Names{{"edges", "stripe", "centroid"}});
     visitor("start_points", start_points, between(1, 1000));
     visitor("edge_shortening_px", edge_shortening_px, between(0, 20));
     visitor("edge_squareness_mm", edge_squareness_mm, between(0.01, 5));

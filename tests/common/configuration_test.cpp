@@ -6,11 +6,14 @@ using namespace arcstart;
 
 namespace {
 
+enum class Shade { kLight, kDark };
+
 struct Sample {
   double sigma_px = 2.5;
   int count = 3;
   bool fast = true;
   std::string mode = "plain";
+  Shade shade = Shade::kDark;
   std::array<double, 3> offset{0.1, 0, -1.0 / 3};
   std::vector<std::string> names{"a \"quoted\"", "b: c"};
 
@@ -20,6 +23,7 @@ struct Sample {
     visitor("count", count, positive());
     visitor("fast", fast);
     visitor("mode", mode, one_of({"plain", "fancy"}));
+    visitor("shade", shade, Names{{"light", "dark"}});
     visitor("offset", offset);
     visitor("names", names);
   }
@@ -92,4 +96,15 @@ TEST_CASE("what is written is read back bit by bit") {
 TEST_CASE("the fingerprint is FNV-1a") {
   CHECK(fingerprint("") == "cbf29ce484222325");
   CHECK(fingerprint("foobar") == "85944171f73967e8");  // the authors' test vector
+}
+
+TEST_CASE("an enumeration's value is given by its name") {
+  const auto shade = [](const std::string& text) {
+    return Configuration::from_text(text, "x").read<Sample>("extraction").shade;
+  };
+  CHECK(shade("") == Shade::kDark);
+  CHECK(shade("extraction: {shade: light}") == Shade::kLight);
+  CHECK(shade(write_settings("extraction", Sample{.shade = Shade::kLight})) == Shade::kLight);
+  CHECK(error_of("extraction: {shade: grey}") ==
+        "cell.yaml:1: extraction.shade: must be one of light, dark, is grey");
 }

@@ -150,14 +150,14 @@ TEST_CASE("where there is no joint none is found") {
 TEST_CASE("the paper's ways are there to choose") {
   SECTION("the largest plane first: right without clutter, no answer beside a larger box") {
     SeamFindingSettings settings;
-    settings.plane_rule = "largest";
+    settings.plane_rule = PlaneRule::kLargest;
     CHECK(run({}, {}, 10, settings).found == std::max(2, 10 / kShare));
     CHECK(run({}, {}, 10, settings).wrong == 0);
     CHECK(run({.big_box = true}, {}, 10, settings).found == 0);
   }
   SECTION("centroid of the first points: it lies late, by its own nature") {
     SeamFindingSettings settings;
-    settings.start_rule = "centroid";
+    settings.start_rule = StartRule::kCentroid;
     const Table table = run({.tool = true}, {}, 20, settings);
     CHECK(table.wrong == 0);
     CHECK(table.start_mean() > run({.tool = true}, {}, 20).start_mean());

@@ -134,7 +134,7 @@ bool calibration_changed(const CollectedScan& scan) {
 StoredBackground::StoredBackground(const CollectedScan& scan, const SeamFindingSettings& settings)
     : scan_id_(scan.state.scan_id), cloud_(std::make_unique<ScanCloud>(cloud_of(scan))) {
   calibration_id_ = calibration_of(scan);
-  if (settings.background_rule == "neighbours")
+  if (settings.background_rule == BackgroundRule::kNeighbours)
     model_ = std::make_unique<NeighbourBackground>(*cloud_, settings.background_neighbours,
                                                    settings.background_distance_mm);
   else
