@@ -4,6 +4,7 @@
 #include <cstdlib>
 #include <filesystem>
 
+#include "paths.hpp"
 #include "services/calibration/calibrate.hpp"
 #include "services/calibration/calibration_result.hpp"
 #include "services/calibration/calibration_set.hpp"

@@ -8,6 +8,7 @@
 #include <random>
 
 #include "common/event_log.hpp"
+#include "paths.hpp"
 #include "services/command_line/replay.hpp"
 #include "services/command_line/seam_json.hpp"
 

@@ -5,6 +5,7 @@
 #include <sstream>
 
 #include "common/message_checks.hpp"
+#include "paths.hpp"
 
 using namespace arcstart;
 
@@ -142,7 +143,7 @@ TEST_CASE("types have the fingerprints that recordings rely on") {
                        VALUE(stripe_t, BORDER) + VALUE(stripe_t, SATURATION) +
                        VALUE(stripe_t, CHOSEN) + VALUE(stripe_t, SECOND_CANDIDATE));
   line(truth_t{}, "");
-  std::ifstream file(ARCSTART_FINGERPRINTS);
+  std::ifstream file(ARCSTART_SOURCE "/lcmtypes/fingerprints.txt");
   std::ostringstream held;
   held << file.rdbuf();
   CHECK(now.str() == held.str());

@@ -3,6 +3,7 @@
 #include <cmath>
 #include <filesystem>
 
+#include "paths.hpp"
 #include "services/extraction/image_file.hpp"
 #include "services/extraction/stripe_extractor.hpp"
 #include "tests/extraction/real_stripes.hpp"

@@ -3,6 +3,7 @@
 #include <csignal>
 #include <set>
 
+#include "paths.hpp"
 #include "services/command_line/replay.hpp"
 #include "services/command_line/seam_error.hpp"
 #include "services/command_line/seam_json.hpp"
