@@ -3,6 +3,7 @@
 #include <cmath>
 #include <filesystem>
 
+#include "paths.hpp"
 #include "services/extraction/files/image_file.hpp"
 #include "services/extraction/stripe_extractor.hpp"
 #include "tests/extraction/support/real_stripes.hpp"

@@ -4,6 +4,7 @@
 #include <filesystem>
 #include <fstream>
 
+#include "paths.hpp"
 #include "tests/house/house_rules.hpp"
 #include "tests/house/room_list.hpp"
 

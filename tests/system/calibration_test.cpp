@@ -4,6 +4,7 @@
 #include <csignal>
 #include <filesystem>
 
+#include "paths.hpp"
 #include "services/calibration/files/calibration_file.hpp"
 #include "services/calibration/sweeps/time_offset.hpp"
 #include "services/cell_simulator/cell_simulator_settings.hpp"

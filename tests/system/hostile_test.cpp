@@ -12,6 +12,7 @@
 #include <fstream>
 #include <limits>
 
+#include "paths.hpp"
 #include "services/command_line/output/seam_error.hpp"
 #include "tests/system/running_cell.hpp"
 

@@ -14,6 +14,7 @@
 #include <sstream>
 
 #include "common/time.hpp"
+#include "paths.hpp"
 
 namespace arcstart {
 namespace {

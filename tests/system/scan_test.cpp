@@ -3,6 +3,7 @@
 #include <csignal>
 #include <set>
 
+#include "paths.hpp"
 #include "services/command_line/output/seam_error.hpp"
 #include "services/command_line/output/seam_json.hpp"
 #include "services/command_line/recordings/replay.hpp"

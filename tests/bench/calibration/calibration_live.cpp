@@ -4,6 +4,7 @@
 
 #include <cmath>
 
+#include "paths.hpp"
 #include "services/calibration/files/calibration_file.hpp"
 #include "tests/bench/calibration/simulated_plate.hpp"
 #include "tests/system/running_cell.hpp"

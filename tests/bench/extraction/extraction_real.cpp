@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "paths.hpp"
 #include "services/extraction/files/image_file.hpp"
 #include "tests/bench/extraction/extraction_bench.hpp"
 #include "tests/extraction/support/plain_ridge.hpp"

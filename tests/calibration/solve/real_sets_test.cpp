@@ -4,6 +4,7 @@
 #include <cstdlib>
 #include <filesystem>
 
+#include "paths.hpp"
 #include "services/calibration/files/calibration_set.hpp"
 #include "services/calibration/files/view_detection.hpp"
 #include "services/calibration/solve/calibrate.hpp"

@@ -9,6 +9,7 @@
 #include <fstream>
 #include <random>
 
+#include "paths.hpp"
 #include "services/command_line/clouds/cloud_picture.hpp"
 #include "tests/seam_finding/support/pcl_judge.hpp"
 

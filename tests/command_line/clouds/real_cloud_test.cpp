@@ -8,6 +8,7 @@
 #include <nlohmann/json.hpp>
 
 #include "common/geometry.hpp"
+#include "paths.hpp"
 #include "tests/seam_finding/support/pcl_judge.hpp"
 
 using namespace arcstart;

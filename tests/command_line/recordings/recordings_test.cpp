@@ -8,6 +8,7 @@
 #include <random>
 
 #include "common/bus/event_log.hpp"
+#include "paths.hpp"
 #include "services/command_line/output/seam_json.hpp"
 #include "services/command_line/recordings/replay.hpp"
 

@@ -5,6 +5,7 @@
 #include <sstream>
 
 #include "common/bus/message_checks.hpp"
+#include "paths.hpp"
 
 using namespace arcstart;
 
@@ -187,7 +188,7 @@ TEST_CASE("types have the fingerprints that recordings rely on") {
                        VALUE(stripe_t, LASER_OFF) + VALUE(stripe_t, UNREADABLE_IMAGE) +
                        VALUE(stripe_t, UNKNOWN_ENCODING));
   line(truth_t{}, "");
-  std::ifstream file(ARCSTART_FINGERPRINTS);
+  std::ifstream file(ARCSTART_SOURCE "/lcmtypes/fingerprints.txt");
   std::ostringstream held;
   held << file.rdbuf();
   CHECK(now.str() == held.str());
