@@ -11,6 +11,8 @@
 
 namespace arcstart::test {
 
+using namespace reconstruction;
+
 constexpr std::int64_t kSecond = 1'000'000;  // us
 using Bytes = std::vector<std::uint8_t>;
 

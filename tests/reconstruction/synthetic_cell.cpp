@@ -4,6 +4,7 @@
 #include <opencv2/calib3d.hpp>
 
 namespace arcstart::test {
+
 namespace {
 
 const cv::Matx33d kCamera(2400, 0, 805.5, 0, 2410, 592.25, 0, 0, 1);

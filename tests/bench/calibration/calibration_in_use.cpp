@@ -4,6 +4,7 @@
 
 #include <cmath>
 
+#include "services/calibration/solve/calibrate.hpp"
 #include "services/calibration/solve/calibration_result.hpp"
 #include "services/calibration/sweeps/time_offset.hpp"
 #include "services/extraction/extraction_app.hpp"
@@ -15,6 +16,12 @@
 #include "tests/bench/seam/simulated_scan.hpp"
 
 namespace arcstart::test {
+
+using namespace calibration;
+using namespace cell_simulator;
+using namespace extraction;
+using namespace reconstruction;
+using namespace seam_finding;
 namespace {
 
 constexpr double kRobotErrorMm = 0.1, kRobotErrorDeg = 0.01;

@@ -10,6 +10,9 @@
 #include "tests/system/running_cell.hpp"
 
 namespace arcstart::test {
+
+using namespace calibration;
+using namespace cell_simulator;
 namespace {
 
 // mm; nothing where the cell did not come up or refused.

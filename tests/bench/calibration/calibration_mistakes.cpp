@@ -9,6 +9,9 @@
 #include "services/calibration/solve/calibrate.hpp"
 
 namespace arcstart::test {
+
+using namespace calibration;
+using namespace cell_simulator;
 namespace {
 
 // One image taken anew.

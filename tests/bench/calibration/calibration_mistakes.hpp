@@ -8,6 +8,9 @@
 
 namespace arcstart::test {
 
+using namespace calibration;
+using namespace cell_simulator;
+
 // The three mistakes that a set must bear, each in one of its poses. What comes, over what the same
 // poses without a mistake give: RMS over the seeds.
 struct Mistake {

@@ -12,6 +12,9 @@
 #include "services/cell_simulator/base/random_stream.hpp"
 
 namespace arcstart::test {
+
+using namespace calibration;
+using namespace cell_simulator;
 namespace {
 
 Eigen::Matrix3d turn(double degrees, const Eigen::Vector3d& axis) {

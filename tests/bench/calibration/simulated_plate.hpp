@@ -12,6 +12,9 @@
 
 namespace arcstart::test {
 
+using namespace calibration;
+using namespace cell_simulator;
+
 // How the poses are spread: tilt from square, roll about the optical axis, distance as a share of
 // the stand-off. Tilts go round in equal steps.
 struct PoseRange {

@@ -6,6 +6,10 @@
 #include "services/extraction/stripe_extractor.hpp"
 
 namespace arcstart::test {
+
+using namespace calibration;
+using namespace cell_simulator;
+using namespace extraction;
 namespace {
 
 std::vector<std::vector<Eigen::Vector2d>> segments_of(const extraction::Stripe& stripe) {

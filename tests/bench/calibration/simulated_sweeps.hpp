@@ -10,6 +10,9 @@
 
 namespace arcstart::test {
 
+using namespace calibration;
+using namespace cell_simulator;
+
 struct SimulatedSweepsSettings {
   cell_simulator::SceneSettings scene;
   cell_simulator::SensorSettings sensor;

@@ -12,6 +12,8 @@
 #include "tests/extraction/support/stripe_image.hpp"
 
 namespace arcstart {
+
+using namespace extraction;
 namespace {
 
 std::vector<Centre> chosen_centres(const extraction::Stripe& stripe) {

@@ -9,6 +9,8 @@
 #include "tests/extraction/support/stripe_image.hpp"
 
 namespace arcstart {
+
+using namespace extraction;
 namespace {
 
 constexpr int kWidth = 1600, kHeight = 1200;

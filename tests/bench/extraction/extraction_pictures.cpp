@@ -11,6 +11,8 @@
 
 namespace arcstart {
 
+using namespace extraction;
+
 void draw_scenes(const std::string& folder) {
   constexpr int kWidth = 800, kHeight = 450;
   for (const StripeSceneKind kind : kAllStripeScenes) {

@@ -11,6 +11,8 @@
 #include "tests/extraction/support/stripe_image.hpp"
 
 namespace arcstart {
+
+using namespace extraction;
 namespace {
 
 // The plain form's strongest point of each row.

@@ -15,6 +15,8 @@
 #include "tests/extraction/support/stripe_image.hpp"
 
 namespace arcstart {
+
+using namespace extraction;
 namespace {
 
 constexpr double kSigma = 2.5;

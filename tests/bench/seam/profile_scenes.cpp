@@ -10,6 +10,8 @@
 #include "tests/seam_finding/support/synthetic_scan.hpp"
 
 namespace arcstart {
+
+using namespace seam_finding;
 namespace {
 
 using synthetic::ScanChoice;

@@ -12,6 +12,11 @@
 #include "tests/bench/seam/simulated_scan.hpp"
 
 namespace arcstart {
+
+using namespace cell_simulator;
+using namespace extraction;
+using namespace reconstruction;
+using namespace seam_finding;
 namespace {
 
 struct Outcome {

@@ -10,6 +10,8 @@
 #include "services/command_line/output/seam_error.hpp"
 
 namespace arcstart {
+
+using namespace command_line;
 namespace {
 
 constexpr double kSilent = 1;  // mm

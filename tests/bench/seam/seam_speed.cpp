@@ -15,6 +15,8 @@
 #include "tests/seam_finding/support/synthetic_scan.hpp"
 
 namespace arcstart {
+
+using namespace seam_finding;
 namespace {
 
 // Of this thread alone: what else runs on the machine does not count, as on one core of its own.

@@ -9,6 +9,8 @@
 #include "services/cell_simulator/base/random_stream.hpp"
 
 namespace arcstart {
+
+using namespace cell_simulator;
 namespace {
 
 constexpr std::int64_t kRunId = 1'699'999'999'000'000;

@@ -5,6 +5,7 @@
 #include <opencv2/imgproc.hpp>
 
 namespace arcstart::test {
+
 namespace {
 
 constexpr int kColumns = 5, kRows = 9, kShift = 6;  // fractional bits of drawn corners

@@ -7,6 +7,9 @@
 
 namespace arcstart::test {
 
+using namespace calibration;
+using namespace cell_simulator;
+
 inline cell_simulator::SensorSettings small_sensor() {
   cell_simulator::SensorSettings settings;
   settings.image_width_px = 800;

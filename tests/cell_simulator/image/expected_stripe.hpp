@@ -12,6 +12,8 @@
 
 namespace arcstart::test {
 
+using namespace cell_simulator;
+
 // A flat square under the taught work, tilted about x and y by these slopes.
 struct Floor {
   double slope_x, slope_y, height;

@@ -12,6 +12,8 @@
 
 namespace arcstart::test {
 
+using namespace cell_simulator;
+
 constexpr double degree = std::numbers::pi / 180;
 
 // For what has nothing to do with the table: one that is quickly made.

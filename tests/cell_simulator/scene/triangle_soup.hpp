@@ -10,6 +10,8 @@
 
 namespace arcstart::test {
 
+using namespace cell_simulator;
+
 inline Eigen::Vector3d random_point(RandomStream& random, double half) {
   return {random.uniform(-half, half), random.uniform(-half, half), random.uniform(-half, half)};
 }

@@ -15,7 +15,6 @@
 
 using namespace arcstart;
 using namespace arcstart::command_line;
-using namespace arcstart::seam_finding;
 namespace fs = std::filesystem;
 
 namespace {

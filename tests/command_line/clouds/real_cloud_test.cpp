@@ -12,8 +12,6 @@
 #include "tests/seam_finding/support/pcl_judge.hpp"
 
 using namespace arcstart;
-using namespace arcstart::command_line;
-using namespace arcstart::seam_finding;
 namespace fs = std::filesystem;
 
 namespace {

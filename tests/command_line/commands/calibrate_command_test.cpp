@@ -15,7 +15,6 @@
 
 using namespace arcstart;
 using namespace arcstart::calibration;
-using namespace arcstart::command_line;
 using namespace arcstart::test;
 using Catch::Matchers::Contains;
 namespace fs = std::filesystem;

@@ -20,7 +20,6 @@
 using namespace arcstart;
 using namespace arcstart::calibration;
 using namespace arcstart::cell_simulator;
-using namespace arcstart::command_line;
 using namespace arcstart::test;
 using Catch::Matchers::Contains;
 namespace fs = std::filesystem;
@@ -78,7 +77,7 @@ struct Recordings {
     std::int64_t seq = 0;
     for (std::int64_t t = begin; with_poses && t < end; t += 20'000) {
       const auto lookup = record.trajectory.at(t);
-      if (lookup.state != TrajectoryQueue::State::found) continue;
+      if (lookup.state != reconstruction::TrajectoryQueue::State::found) continue;
       robot_pose_t pose{};
       pose.utime = pose.arrival_utime = t;
       pose.run_id = begin;

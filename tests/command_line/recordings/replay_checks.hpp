@@ -12,6 +12,8 @@
 
 namespace arcstart::test {
 
+using namespace command_line;
+
 using Bytes = std::vector<std::uint8_t>;
 
 inline Events of_stage(Stage stage) {

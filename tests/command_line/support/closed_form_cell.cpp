@@ -5,6 +5,8 @@
 #include <cmath>
 
 namespace arcstart::test {
+
+using namespace command_line;
 namespace {
 
 const Eigen::Vector3d kNear(20, -60, 0), kFar(120, 60, 10);  // corners of the base plate; mm

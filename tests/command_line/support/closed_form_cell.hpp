@@ -11,6 +11,8 @@
 
 namespace arcstart::test {
 
+using namespace command_line;
+
 constexpr double kTimeOffset = -0.02732;  // s
 
 Calibration calibration_of_cell(const std::string& sensor, const std::string& robot);

@@ -16,6 +16,11 @@
 #include "tests/command_line/support/closed_form_cell.hpp"
 
 namespace arcstart::test {
+
+using namespace command_line;
+using namespace extraction;
+using namespace reconstruction;
+using namespace seam_finding;
 namespace {
 
 constexpr std::int64_t kSecond = 1'000'000;           // us

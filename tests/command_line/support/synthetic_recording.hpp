@@ -11,6 +11,8 @@
 
 namespace arcstart::test {
 
+using namespace command_line;
+
 struct RecordedEvent {
   std::int64_t timestamp;  // us, when the logger got it
   std::string channel;

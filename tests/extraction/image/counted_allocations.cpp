@@ -10,7 +10,7 @@ std::atomic<std::int64_t> allocations{0};
 
 }  // namespace
 
-std::int64_t arcstart::counted_allocations() { return allocations; }
+std::int64_t arcstart::extraction::counted_allocations() { return allocations; }
 
 void* operator new(std::size_t size) {
   ++allocations;

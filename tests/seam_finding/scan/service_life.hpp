@@ -15,7 +15,7 @@
 #include "tests/seam_finding/support/synthetic_messages.hpp"
 #include "tests/seam_finding/support/synthetic_scan.hpp"
 
-namespace arcstart::synthetic {
+namespace arcstart::seam_finding::synthetic {
 
 namespace fs = std::filesystem;
 
@@ -110,4 +110,4 @@ inline const Scans& scans() {
   return made;
 }
 
-}  // namespace arcstart::synthetic
+}  // namespace arcstart::seam_finding::synthetic

@@ -1,6 +1,6 @@
 #include "tests/seam_finding/support/synthetic_messages.hpp"
 
-namespace arcstart::synthetic {
+namespace arcstart::seam_finding::synthetic {
 
 ScanMessages to_messages(const ScanCloud& cloud, const ScanIdentity& identity) {
   ScanMessages messages;
@@ -71,4 +71,4 @@ scan_t idle_state(std::int64_t run_id) {
   return state;
 }
 
-}  // namespace arcstart::synthetic
+}  // namespace arcstart::seam_finding::synthetic

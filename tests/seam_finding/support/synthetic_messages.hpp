@@ -8,7 +8,7 @@
 
 #include "services/seam_finding/cloud/sampling.hpp"
 
-namespace arcstart::synthetic {
+namespace arcstart::seam_finding::synthetic {
 
 struct ScanMessages {
   scan_t scanning{}, ended{};
@@ -29,4 +29,4 @@ ScanMessages to_messages(const ScanCloud& cloud, const ScanIdentity& identity);
 // States of no scan: of a sensor_capture that has just started.
 scan_t idle_state(std::int64_t run_id);
 
-}  // namespace arcstart::synthetic
+}  // namespace arcstart::seam_finding::synthetic

@@ -3,7 +3,7 @@
 
 #include <random>
 
-namespace arcstart::synthetic {
+namespace arcstart::seam_finding::synthetic {
 
 struct Random {
   std::mt19937_64 engine;
@@ -15,4 +15,4 @@ struct Random {
   }
 };
 
-}  // namespace arcstart::synthetic
+}  // namespace arcstart::seam_finding::synthetic

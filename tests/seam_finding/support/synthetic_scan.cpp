@@ -8,7 +8,7 @@
 #include "common/geometry.hpp"
 #include "tests/seam_finding/support/synthetic_random.hpp"
 
-namespace arcstart::synthetic {
+namespace arcstart::seam_finding::synthetic {
 namespace {
 
 constexpr double kInfinity = std::numeric_limits<double>::infinity();
@@ -198,4 +198,4 @@ SyntheticScan make_scan(const Scene& scene, const ScanChoice& choice, std::uint6
   return scan;
 }
 
-}  // namespace arcstart::synthetic
+}  // namespace arcstart::seam_finding::synthetic

@@ -12,7 +12,7 @@
 #include "common/geometry.hpp"
 #include "services/seam_finding/cloud/sampling.hpp"
 
-namespace arcstart::synthetic {
+namespace arcstart::seam_finding::synthetic {
 
 // A box with its own frame; its faces are at +-half_size. What lies before a cut is missing.
 struct Box {
@@ -71,4 +71,4 @@ struct SyntheticScan {
 };
 SyntheticScan make_scan(const Scene& scene, const ScanChoice& choice, std::uint64_t seed);
 
-}  // namespace arcstart::synthetic
+}  // namespace arcstart::seam_finding::synthetic

@@ -4,7 +4,7 @@
 #include "tests/seam_finding/support/synthetic_random.hpp"
 #include "tests/seam_finding/support/synthetic_scan.hpp"
 
-namespace arcstart::synthetic {
+namespace arcstart::seam_finding::synthetic {
 namespace {
 
 Box standing_box(const Eigen::Isometry3d& frame, const Eigen::Vector3d& corner,
@@ -122,4 +122,4 @@ Scene make_scene(const SceneChoice& choice, std::uint64_t seed) {
   return scene;
 }
 
-}  // namespace arcstart::synthetic
+}  // namespace arcstart::seam_finding::synthetic

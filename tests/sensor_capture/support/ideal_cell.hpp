@@ -9,6 +9,8 @@
 
 namespace arcstart::test {
 
+using namespace sensor_capture;
+
 constexpr std::int64_t kStart = 1'700'000'000'000'000;
 constexpr std::int64_t ms = 1000;
 constexpr std::int64_t kPeriod = 100 * ms;

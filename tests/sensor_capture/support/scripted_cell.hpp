@@ -14,6 +14,8 @@
 
 namespace arcstart::test {
 
+using namespace sensor_capture;
+
 constexpr std::int64_t kDeviceAhead = 5'000'000'000;  // us
 constexpr std::int64_t kScriptedExposure = 4'000;     // us
 
