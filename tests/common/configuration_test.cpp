@@ -60,6 +60,7 @@ TEST_CASE("keys given replace defaults") {
 TEST_CASE("a wrong configuration is told with file, line and key") {
   CHECK(error_of("extraction:\n  count: 1\n  sigma: 2\n") ==
         "cell.yaml:3: extraction.sigma: unknown key; known are count, fast, mode, names, offset, "
+        "shade, "
         "sigma_px");
   CHECK(error_of("extraction: {sigma_px: wide}") ==
         "cell.yaml:1: extraction.sigma_px: must be a number, is 'wide'");
@@ -106,5 +107,5 @@ TEST_CASE("an enumeration's value is given by its name") {
   CHECK(shade("extraction: {shade: light}") == Shade::kLight);
   CHECK(shade(write_settings("extraction", Sample{.shade = Shade::kLight})) == Shade::kLight);
   CHECK(error_of("extraction: {shade: grey}") ==
-        "cell.yaml:1: extraction.shade: must be one of light, dark, is grey");
+        "cell.yaml:1: extraction.shade: must be one of light, dark, is 'grey'");
 }

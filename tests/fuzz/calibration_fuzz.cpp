@@ -10,9 +10,9 @@
 namespace {
 
 void parse(const std::string& text) try {
-  const arcstart::Calibration calibration = arcstart::parse_calibration(text, "fuzz.yaml");
+  const arcstart::Calibration calibration = arcstart::calibration::parse_calibration(text, "fuzz.yaml");
   if (!calibration_error(calibration).empty()) std::abort();
-} catch (const arcstart::CalibrationFileError&) {
+} catch (const arcstart::calibration::CalibrationFileError&) {
 }
 
 }  // namespace

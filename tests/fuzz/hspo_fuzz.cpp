@@ -6,7 +6,7 @@
 #include "services/robot_pose/hspo_packet.hpp"
 
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
-  const arcstart::DecodedHspo decoded = arcstart::decode_hspo({data, size});
+  const arcstart::robot_pose::DecodedHspo decoded = arcstart::robot_pose::decode_hspo({data, size});
   if (decoded.packet.has_value() != decoded.error.empty()) std::abort();
   if (!decoded.packet) return 0;
   const auto check = [](const auto& values) {

@@ -30,7 +30,7 @@ class Tree {
         "cell_simulator: .\n"
         "cell_simulator uses of common: bus geometry\n");
     for (const char* file :
-         {"common/bus/bus.hpp", "services/cell_simulator/main.cpp", "services/extraction/main.cpp",
+         {"common/bus.hpp", "services/cell_simulator/main.cpp", "services/extraction/main.cpp",
           "services/seam_finding/main.cpp", "services/seam_finding/seam_finding_app.hpp",
           "services/seam_finding/scan/store.hpp", "services/seam_finding/find_seam.hpp",
           "services/seam_finding/planes/planes.hpp", "services/seam_finding/fit/line_fit.hpp"})
@@ -66,7 +66,7 @@ TEST_CASE("includes run down through the rooms") {
   tree.include(service + "scan/store.cpp", service + "find_seam.hpp");
   tree.include(service + "find_seam.cpp", service + "fit/line_fit.hpp");
   tree.include(service + "planes/deep/inside.cpp", "services/seam_finding/planes/planes.hpp");
-  tree.include(service + "fit/line_fit.cpp", "common/bus/bus.hpp");
+  tree.include(service + "fit/line_fit.cpp", "common/bus.hpp");
   CHECK(wrong_includes(tree.root()) == Lines{});
 
   SECTION("up") {
@@ -110,7 +110,7 @@ TEST_CASE("services use services below them, and none of their apps") {
                     ridge = "services/extraction/ridge.hpp";
   tree.include("services/command_line/main.cpp", app);
   tree.include("services/seam_finding/main.cpp", ridge);
-  tree.include("services/cell_simulator/main.cpp", "common/bus/bus.hpp");
+  tree.include("services/cell_simulator/main.cpp", "common/bus.hpp");
   CHECK(wrong_includes(tree.root()) == Lines{});
 
   const auto broken = [&](const std::string& path, const std::string& target) {
@@ -137,7 +137,7 @@ TEST_CASE("services use services below them, and none of their apps") {
     CHECK(broken("services/seam_finding/main.cpp", app) == "it is another service's app");
   }
   SECTION("common uses no service") {
-    CHECK(broken("common/bus/bus.cpp", ridge) == "common uses no service");
+    CHECK(broken("common/bus.cpp", ridge) == "common uses no service");
   }
   SECTION("more of common than is allowed") {
     CHECK(broken("services/cell_simulator/main.cpp", "common/sensor_model.hpp") ==
@@ -154,7 +154,7 @@ TEST_CASE("circles of components are reported whole") {
   const std::string folder = "services/extraction/";
   tree.include(folder + "ridge.cpp", folder + "ridge.hpp");  // a component is no circle
   tree.include(folder + "ridge.hpp", folder + "linking.hpp");
-  tree.include(folder + "linking.hpp", "common/bus/bus.hpp");
+  tree.include(folder + "linking.hpp", "common/bus.hpp");
   CHECK(circles(tree.root()) == Lines{});
   // Of the header of one and the .cpp of the other: the compiler does not mind.
   tree.include(folder + "linking.cpp", folder + "ridge.hpp");

@@ -10,7 +10,7 @@
 
 using namespace arcstart;
 using namespace arcstart::seam_finding;
-using namespace arcstart::synthetic;
+using namespace arcstart::seam_finding::synthetic;
 
 TEST_CASE("a Tee in a cloud without stripes: its draws agree, the answer is that of a scan") {
   const Scene scene = make_scene({}, 3);

@@ -7,7 +7,7 @@
 
 using namespace arcstart;
 using namespace arcstart::seam_finding;
-using namespace arcstart::synthetic;
+using namespace arcstart::seam_finding::synthetic;
 
 TEST_CASE("background, then workpiece, then the seam") {
   Life life;

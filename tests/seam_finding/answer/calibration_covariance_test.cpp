@@ -10,7 +10,7 @@
 
 using namespace arcstart;
 using namespace arcstart::seam_finding;
-using namespace arcstart::synthetic;
+using namespace arcstart::seam_finding::synthetic;
 
 namespace {
 

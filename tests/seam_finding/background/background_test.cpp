@@ -13,7 +13,7 @@
 
 using namespace arcstart;
 using namespace arcstart::seam_finding;
-using namespace arcstart::synthetic;
+using namespace arcstart::seam_finding::synthetic;
 
 namespace {
 

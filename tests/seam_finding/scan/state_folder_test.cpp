@@ -12,7 +12,7 @@
 
 using namespace arcstart;
 using namespace arcstart::seam_finding;
-using namespace arcstart::synthetic;
+using namespace arcstart::seam_finding::synthetic;
 
 TEST_CASE("after a restart the answer is repeated and no scan answered twice") {
   Folder folder;

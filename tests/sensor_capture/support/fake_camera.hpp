@@ -13,7 +13,12 @@
 #include <string>
 #include <thread>
 
+#include "services/sensor_capture/frames/frame_source.hpp"
+#include "services/sensor_capture/sensor_capture_settings.hpp"
+
 namespace arcstart::test {
+
+using namespace sensor_capture;
 
 constexpr guint32 kLineMode = 0xa004, kLineSource = 0xa008;
 constexpr guint32 kSourceOff = 0, kSourceExposureActive = 2;
