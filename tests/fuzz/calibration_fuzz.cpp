@@ -10,7 +10,8 @@
 namespace {
 
 void parse(const std::string& text) try {
-  const arcstart::Calibration calibration = arcstart::calibration::parse_calibration(text, "fuzz.yaml");
+  const arcstart::Calibration calibration =
+      arcstart::calibration::parse_calibration(text, "fuzz.yaml");
   if (!calibration_error(calibration).empty()) std::abort();
 } catch (const arcstart::calibration::CalibrationFileError&) {
 }

@@ -36,7 +36,8 @@ void judge(const Plate& plate, const CalibrateOptions& options, CalibrationRun& 
   if (const std::string slip = length_slip(run.scale, plate); !slip.empty())
     run.warnings.push_back(slip);
   if (!run.adjustment.converged)
-    run.warnings.emplace_back("the adjustment did not settle: its deviations are not to be relied on");
+    run.warnings.emplace_back(
+        "the adjustment did not settle: its deviations are not to be relied on");
   if (run.camera_held)
     run.warnings.push_back(fmt::format(
         "camera held as the camera stage found it: {} views that turn by {:.0f} deg do not tell "
