@@ -3,98 +3,18 @@
 #include <fmt/core.h>
 
 #include <cmath>
-#include <string_view>
 
 #include "common/bus/crc32c.hpp"
+#include "common/bus/value_checks.hpp"
 
 namespace arcstart {
 namespace {
-
-constexpr double kLongest = 1e7;           // mm: ten kilometres; nothing in a cell is farther away
-constexpr std::size_t kLongestName = 256;  // bytes, of a job's or a part's; seam_t repeats them
-
-template <class List>
-bool all_finite(const List& values) {
-  for (const double value : values)
-    if (!std::isfinite(value) || std::abs(value) > 1e30) return false;
-  return true;
-}
-
-// Before the year 10000: a stamp to which any setting in seconds can be added.
-bool is_time(std::int64_t utime) { return utime > 0 && utime < 253'402'300'800'000'000; }
-
-bool is_length(double value) { return std::isfinite(value) && std::abs(value) <= kLongest; }
-
-template <class List>
-bool are_lengths(const List& values) {
-  for (const double value : values)
-    if (!is_length(value)) return false;
-  return true;
-}
-
-bool is_unit(const double* values, int count) {
-  double sum = 0;
-  for (int i = 0; i < count; ++i) sum += values[i] * values[i];
-  return std::abs(sum - 1) < 1e-6;
-}
-
-// Length of the character of UTF-8 (RFC 3629, section 4) that the text begins with, in bytes; 0
-// where it begins with none, or with a control character.
-std::size_t character_length(std::string_view text) {
-  const auto byte = [&](std::size_t i) { return static_cast<unsigned char>(text[i]); };
-  const unsigned char first = byte(0);
-  if (first < 0x80) return first < 0x20 || first == 0x7F ? 0 : 1;
-  const std::size_t length = first >= 0xC2 && first <= 0xDF   ? 2
-                             : first >= 0xE0 && first <= 0xEF ? 3
-                             : first >= 0xF0 && first <= 0xF4 ? 4
-                                                              : 0;
-  if (length == 0 || length > text.size()) return 0;
-  for (std::size_t i = 1; i < length; ++i)
-    if ((byte(i) & 0xC0) != 0x80) return 0;
-  // Longer than it need be, half of a UTF-16 pair, or beyond Unicode's last.
-  const unsigned char second = byte(1);
-  const bool bad = (first == 0xE0 && second < 0xA0) || (first == 0xED && second > 0x9F) ||
-                   (first == 0xF0 && second < 0x90) || (first == 0xF4 && second > 0x8F);
-  return bad ? 0 : length;
-}
-
-// A short line of UTF-8: it goes into JSON as it stands.
-bool is_name(std::string_view text) {
-  if (text.size() > kLongestName) return false;
-  while (!text.empty()) {
-    const std::size_t length = character_length(text);
-    if (length == 0) return false;
-    text.remove_prefix(length);
-  }
-  return true;
-}
-
-constexpr const char* kNoName = "job or part is no line of UTF-8 of at most 256 bytes";
-
-// -1 stands for not known.
-bool is_known_or_not(double value) { return value == -1 || (value >= 0 && is_length(value)); }
-
-// Of the less probable of two.
-bool is_weight(double value) { return value >= 0 && value <= 0.5; }
 
 // Bytes that an image of this encoding must have, -1 where that is not fixed.
 std::int64_t bytes_of(const image_t& m) {
   if (m.encoding == image_t::PNG) return -1;
   return std::int64_t{m.width} * m.height * (m.encoding == image_t::MONO16 ? 2 : 1);
 }
-
-// Collects the first condition that fails.
-class Checks {
- public:
-  Checks& require(bool condition, const char* why) {
-    if (!condition && error_.empty()) error_ = why;
-    return *this;
-  }
-  const std::string& error() const { return error_; }
-
- private:
-  std::string error_;
-};
 
 template <class Message>
 Checks check_source(const Message& message) {
