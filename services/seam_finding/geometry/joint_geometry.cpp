@@ -1,9 +1,15 @@
 #include "services/seam_finding/geometry/joint_geometry.hpp"
 
+#include <algorithm>
+#include <iterator>
+#include <utility>
+
 #include "services/seam_finding/answer/accuracy.hpp"
 #include "services/seam_finding/answer/seam_measurements.hpp"
 #include "services/seam_finding/ends/crossing_ends.hpp"
 #include "services/seam_finding/ends/parallel_ends.hpp"
+#include "services/seam_finding/joints/crossing_joints.hpp"
+#include "services/seam_finding/joints/parallel_joints.hpp"
 
 namespace arcstart::seam_finding {
 namespace {
@@ -11,6 +17,19 @@ namespace {
 // Tee and corners: the seam is where the planes cross.
 class CrossingPlates : public JointGeometry {
  public:
+  std::vector<Joint> candidates(const ScanView& scan, const std::vector<Face>& faces,
+                                const Scales& scales,
+                                const SeamFindingSettings& settings) const override {
+    std::vector<Joint> joints;
+    for (const JointType type : wanted_types(settings.joint_type)) {
+      if (is_parallel(type)) continue;
+      auto found =
+          find_crossing_joints(scan.points_for(Stage::kSearch), scan.workpiece(Stage::kSearch),
+                               faces, type, scales, settings);
+      std::move(found.begin(), found.end(), std::back_inserter(joints));
+    }
+    return joints;
+  }
   std::array<SeamEnd, 2> ends(const ScanCloud& cloud, const Joint& joint, const Scales& scales,
                               const SeamFindingSettings& settings) const override {
     return find_crossing_ends(cloud, joint, scales, settings);
@@ -33,6 +52,17 @@ class CrossingPlates : public JointGeometry {
 // Lap, butt joint and V-groove: the seam is where the plates' edges lie.
 class ParallelPlates : public JointGeometry {
  public:
+  // They hang on where stripes pass from the one plate to the other: all points are needed.
+  std::vector<Joint> candidates(const ScanView& scan, const std::vector<Face>& faces,
+                                const Scales& scales,
+                                const SeamFindingSettings& settings) const override {
+    const auto wanted = wanted_types(settings.joint_type);
+    if (std::none_of(wanted.begin(), wanted.end(), is_parallel)) return {};
+    std::vector<Face> whole = faces;
+    for (Face& face : whole)
+      face.points = scan.all_on_plane(std::move(face.points), face.plane, scales.tolerance);
+    return find_parallel_joints(scan.points_for(Stage::kMeasure), whole, scales, settings);
+  }
   std::array<SeamEnd, 2> ends(const ScanCloud& cloud, const Joint& joint, const Scales& scales,
                               const SeamFindingSettings& settings) const override {
     return find_parallel_ends(cloud, joint, scales, settings);
@@ -59,11 +89,18 @@ class ParallelPlates : public JointGeometry {
 
 }  // namespace
 
-const JointGeometry& geometry_of(const Joint& joint) {
+const JointGeometry& crossing_plates() {
   static const CrossingPlates crossing;
-  static const ParallelPlates parallel;
-  if (joint.parallel) return parallel;
   return crossing;
+}
+
+const JointGeometry& parallel_plates() {
+  static const ParallelPlates parallel;
+  return parallel;
+}
+
+const JointGeometry& geometry_of(const Joint& joint) {
+  return joint.parallel ? parallel_plates() : crossing_plates();
 }
 
 }  // namespace arcstart::seam_finding

@@ -20,6 +20,12 @@ class JointGeometry {
  public:
   virtual ~JointGeometry() = default;
 
+  // The joints of the wanted types between the faces (Eq. 6), with a flaw where something speaks
+  // against one; none where no such type is wanted. faces: of the points for the search, their
+  // normals toward the sensor.
+  virtual std::vector<Joint> candidates(const ScanView& scan, const std::vector<Face>& faces,
+                                        const Scales& scales,
+                                        const SeamFindingSettings& settings) const = 0;
   // Start and end, along the joint's line.
   virtual std::array<SeamEnd, 2> ends(const ScanCloud& cloud, const Joint& joint,
                                       const Scales& scales,
@@ -37,6 +43,8 @@ class JointGeometry {
   virtual std::array<Eigen::Vector3d, 2> torch_faces(const Joint& joint) const = 0;
 };
 
+const JointGeometry& crossing_plates();  // tee and corners
+const JointGeometry& parallel_plates();  // lap, butt joint and V-groove
 const JointGeometry& geometry_of(const Joint& joint);
 
 }  // namespace arcstart::seam_finding

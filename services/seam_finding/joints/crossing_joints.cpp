@@ -223,15 +223,7 @@ std::vector<Joint> find_crossing_joints(const ScanCloud& cloud, const std::vecto
     for (int b = a + 1; b < static_cast<int>(faces.size()); ++b)
       if (auto joint = pair_up(cloud, left, faces, a, b, type, scales, settings))
         joints.push_back(std::move(*joint));
-  sort_by_score(joints);
   return joints;
-}
-
-void sort_by_score(std::vector<Joint>& joints) {
-  std::stable_sort(joints.begin(), joints.end(), [](const Joint& a, const Joint& b) {
-    if (static_cast<bool>(a.flaw) != static_cast<bool>(b.flaw)) return !a.flaw;
-    return a.score > b.score;
-  });
 }
 
 bool same_seam(const Joint& a, const Joint& b, double tolerance_mm) {

@@ -24,14 +24,11 @@ WantedAngle wanted_angle(JointType type, const SeamFindingSettings& settings);
 // nearly in the plane.
 std::vector<Face> turned_to_sensor(const ScanCloud& cloud, std::vector<Face> faces);
 
-// All pairs whose planes meet under the angle of that type, a tee or a corner, and touch, best
-// first; those with a flaw behind those without. `left`: the points that are not background.
+// All pairs whose planes meet under the angle of that type, a tee or a corner, and touch; with a
+// flaw where something speaks against one. `left`: the points that are not background.
 std::vector<Joint> find_crossing_joints(const ScanCloud& cloud, const std::vector<int>& left,
                                         const std::vector<Face>& faces, JointType type,
                                         const Scales& scales, const SeamFindingSettings& settings);
-
-// Best first; those with a flaw behind those without.
-void sort_by_score(std::vector<Joint>& joints);
 
 // The same seam, found on two pieces of a plate.
 bool same_seam(const Joint& a, const Joint& b, double tolerance_mm);
