@@ -5,8 +5,7 @@
 #include <catch2/catch.hpp>
 #include <random>
 
-#include "tests/seam_finding/support/synthetic_messages.hpp"
-#include "tests/seam_finding/support/synthetic_scan.hpp"
+#include "tests/seam_finding/scan/answered_scans.hpp"
 
 using namespace arcstart;
 using namespace arcstart::seam_finding;
@@ -20,13 +19,6 @@ std::vector<std::uint8_t> bytes_of(const seam_t& seam) {
   return bytes;
 }
 
-CollectedScan collected(const ScanMessages& messages) {
-  CollectedScan scan;
-  scan.state = messages.ended;
-  scan.profiles = messages.profiles;
-  return scan;
-}
-
 struct Cell {
   Scene scene = make_scene({.tool = true}, 11);
   CollectedScan work;
@@ -36,12 +28,13 @@ struct Cell {
     Scene cell = scene;
     cell.boxes.clear();
     ScanIdentity identity;
-    work = collected(to_messages(make_scan(scene, {}, 1).cloud, identity));
+    work = as_collected(to_messages(make_scan(scene, {}, 1).cloud, identity));
     identity.kind = scan_t::BACKGROUND;
     for (auto* stored : {&another, &background}) {
       identity.scan_id -= 60'000'000;
       *stored = std::make_unique<StoredBackground>(
-          collected(to_messages(make_scan(cell, {}, stored == &another ? 3 : 2).cloud, identity)),
+          as_collected(
+              to_messages(make_scan(cell, {}, stored == &another ? 3 : 2).cloud, identity)),
           SeamFindingSettings());
     }
   }
