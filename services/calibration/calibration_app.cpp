@@ -21,7 +21,7 @@ CalibrationApp::CalibrationApp(Bus& bus, const CalibrationSettings& settings,
     : bus_(bus), settings_(settings), instance_(instance) {
   if (settings.plate.empty()) return;
   try {
-    desk_ = std::make_unique<CaptureDesk>(bus, settings, instance, run_id);
+    desk_ = std::make_unique<CaptureSession>(bus, settings, instance, run_id);
   } catch (const CalibrationSetError& error) {
     throw ConfigurationError(error.what());
   }

@@ -16,7 +16,7 @@ namespace arcstart::calibration {
 
 // Gives <SENSOR>_CALIBRATION once a second, byte for byte the same, and at once when its file has
 // changed. Without a usable file it waits for one. Where a plate is configured, a calibration can
-// be made here, too (capture_desk.hpp).
+// be made here, too (capture/capture_session.hpp).
 class CalibrationApp : public App {
  public:
   // The bus outlives the app. Throws ConfigurationError where plate or folder cannot be used.
@@ -43,7 +43,7 @@ class CalibrationApp : public App {
   std::optional<FileStamp> taken_;              // of the file that was read last and was good
   std::optional<calibration_t> message_;        // the calibration in force
   std::string file_error_;                      // why the file cannot be used now
-  std::unique_ptr<CaptureDesk> desk_;           // none where no plate is configured
+  std::unique_ptr<CaptureSession> desk_;        // none where no plate is configured
 };
 
 }  // namespace arcstart::calibration

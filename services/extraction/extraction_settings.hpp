@@ -31,8 +31,9 @@ struct ExtractionSettings {
   int longest_hole_px =
       5;  // columns without a centre that do not yet end a segment; nothing is put into them
 
-  // Whether the centres are fitted along the stripe (course.hpp): less speckle, sharper corners,
-  // and centres up to the image's border. Else each is where its own pixel's Hessian says.
+  // Whether the centres are fitted along the stripe (centres/stripe_smoother.hpp): less speckle,
+  // sharper corners, and centres up to the image's border. Else each is where its own pixel's
+  // Hessian says.
   bool smooth_course = true;
 
   // That look for ridge points in strips of one image at once. The centres are the same, byte by

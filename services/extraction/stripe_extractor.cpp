@@ -64,7 +64,7 @@ bool StripeExtractor::look_at(const GreyImage& image, double sigma) {
   widths_.assign(points_.size(), 0);
   for (const Chain& chain : chains_)
     measure_widths(image, points_, chain, sigma, noise_, widths_, &memory_);
-  SelectionSettings selection;
+  StripePathSettings selection;
   selection.longest_hole = settings_.longest_hole_px;
   selection.fewest_points = settings_.fewest_centres;
   selection.width = image.width;
@@ -136,7 +136,7 @@ void StripeExtractor::set_out(const GreyImage& image, const Branch& branch) {
     // What seems to scatter more than speckle can is the surface's own shape.
     const double seen = std::sqrt(scatter_.base + scatter_.per_law * c.deviation * c.deviation),
                  most = std::max<double>(kMostScatter * c.sigma, c.deviation);
-    CoursePoint point{c.u, c.v, std::min(seen, most), c.sigma, at_border};
+    SmoothedPoint point{c.u, c.v, std::min(seen, most), c.sigma, at_border};
     if (selection_.along_rows) std::swap(point.along, point.across);
     course_points_.push_back(point);
   }
@@ -156,7 +156,7 @@ void StripeExtractor::describe(const GreyImage& image, Stripe& stripe) {
     const std::size_t first = stripe.centres.size();
     for (std::size_t i = 0; i < branch.points.size(); ++i) {
       const RidgePoint& p = points_[branch.points[i]];
-      const CoursePoint& course = course_points_[i];
+      const SmoothedPoint& course = course_points_[i];
       if (course.deviation == 0) continue;
       StripeCentre centre{};
       centre.u = static_cast<float>(selection_.along_rows ? course.across : course.along);
@@ -188,7 +188,7 @@ void StripeExtractor::describe(const GreyImage& image, Stripe& stripe) {
 void StripeExtractor::measure(const GreyImage& image) {
   const std::size_t found = points_.size();
   end_deviations_.clear();
-  follow_ends(image, kernels_, border(), selection_, points_, end_deviations_);
+  follow_blunt_ends(image, kernels_, border(), selection_, points_, end_deviations_);
   widths_.resize(points_.size(), 0);
   centres_.clear();
   for (std::size_t i = 0; i < points_.size(); ++i) {
@@ -198,14 +198,14 @@ void StripeExtractor::measure(const GreyImage& image) {
         i < found ? by_noise : std::hypot(by_noise, end_deviations_[i - found]);
     centres_.push_back({p.u, p.v, static_cast<float>(deviation), static_cast<float>(used_sigma_)});
   }
-  scatter_ = scatter_of(selection_.branches, centres_, used_sigma_, &memory_);
+  scatter_ = centre_noise(selection_.branches, centres_, used_sigma_, &memory_);
   if (settings_.sigma_px != 0 || !settings_.smooth_course) return;
   const double share = settings_.measuring_sigma_per_width / settings_.sigma_per_width;
   const double sigma =
       std::max(kLeastSigma, std::round(share * used_sigma_ / kSigmaStep) * kSigmaStep);
   if (sigma >= used_sigma_) return;
   measure_at(image, sigma);
-  const CentreScatter finer = scatter_of(selection_.branches, finer_, used_sigma_, &memory_);
+  const CentreNoise finer = centre_noise(selection_.branches, finer_, used_sigma_, &memory_);
   if (finer.variance * sigma >= scatter_.variance * used_sigma_) return;
   std::swap(centres_, finer_);
   scatter_ = finer;
@@ -222,7 +222,7 @@ void StripeExtractor::measure_at(const GreyImage& image, double sigma) {
   detector_.detect_about(image, measuring_kernels_,
                          settings_.weakest_share * strong_curvature(sigma), border(), about_, reach,
                          measured_);
-  take_finer(points_, selection_, reach, sigma, noise_, measured_, finer_);
+  refine_centres(points_, selection_, reach, sigma, noise_, measured_, finer_);
 }
 
 int StripeExtractor::border() const {
@@ -240,7 +240,7 @@ void StripeExtractor::extract(const GreyImage& image, Stripe& stripe) {
     look_at(image, std::round(sigma_ / kSigmaStep) * kSigmaStep);
   measure(image);
   describe(image, stripe);
-  if (settings_.smooth_course) end_at_light(image, stripe.centres);
+  if (settings_.smooth_course) refine_segment_ends(image, stripe.centres);
   stripe.why = !stripe.centres.empty() ? EmptyStripe::kNone
                : crowded_              ? EmptyStripe::kTooMuchLight
                                        : EmptyStripe::kNoStripe;

@@ -64,7 +64,7 @@ class StripeExtractor {
   double sigma_ = 0;  // followed; 0: not known yet
 
   // Of the image looked at last. The memory is given up last: chains and branches lie in it.
-  FrameMemory memory_;
+  FrameArena memory_;
   double noise_ = 0;
   double used_sigma_ = 0;
   bool crowded_ = false;  // by more ridge points than a stripe can be told from
@@ -75,14 +75,14 @@ class StripeExtractor {
   std::vector<RidgePoint> points_;
   std::vector<Chain> chains_;
   std::vector<MeasuredCentre> centres_, finer_;  // of each point
-  std::vector<float> end_deviations_;  // of the last points, which follow_ends has added; px
-  CentreScatter scatter_;
+  std::vector<float> end_deviations_;  // of the last points, which follow_blunt_ends has added; px
+  CentreNoise scatter_;
   GaussianKernels measuring_kernels_;
   std::vector<RidgePoint> about_, measured_;
   std::vector<float> widths_;  // of each point; px, 0 where not measured
-  Selection selection_;
-  BranchCourse course_;
-  std::vector<CoursePoint> course_points_;  // of a branch
+  StripePath selection_;
+  StripeSmoother course_;
+  std::vector<SmoothedPoint> course_points_;  // of a branch
 };
 
 }  // namespace arcstart::extraction

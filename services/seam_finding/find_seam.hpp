@@ -14,7 +14,8 @@ namespace arcstart::seam_finding {
 // reason when in doubt. The result depends on nothing but the arguments; seed: the scan's id.
 SeamResult find_seam(const ScanCloud& cloud, const Background& background,
                      const SeamFindingSettings& settings, std::uint64_t seed);
-// The same of a scan that is divided and thinned; leaves the result's background to the division.
+// The same of a scan that is segmented and downsampled; leaves the result's background to the
+// segmentation.
 SeamResult find_seam(const ScanCloud& cloud, const Segmentation& segmentation,
                      const DownsampledCloud& fewer, const SeamFindingSettings& settings,
                      std::uint64_t seed);

@@ -109,11 +109,11 @@ TEST_CASE("the cell's time offset is found from sweeps of the real processes") {
   REQUIRE(cell.wait_until_ready());
   cell.forget();
   REQUIRE(cell.scan(scan_t::BACKGROUND, 40));
-  SweepRecord record;
+  SweepData record;
   for (const robot_pose_t& pose : cell.heard().poses)
     record.trajectory.insert(pose.utime, transform_from_arrays(pose.position, pose.quaternion));
   for (const stripe_t& message : cell.heard().stripes) {
-    SweptStripe stripe{message.utime, message.scan_id, {}};
+    SweepProfile stripe{message.utime, message.scan_id, {}};
     for (std::size_t i = 0; i < message.u.size(); ++i) {
       if (message.rank[i] != stripe_t::CHOSEN) continue;
       if (i == 0 || message.segment[i] != message.segment[i - 1]) stripe.segments.emplace_back();

@@ -33,7 +33,7 @@ double improve(Deviations& deviations, const Redundancy& redundancy, bool has_la
   return change;
 }
 
-void describe_residuals(const Plate& plate, const std::vector<View>& views,
+void describe_residuals(const Target& plate, const std::vector<View>& views,
                         Adjustment& adjustment) {
   const AdjustmentState& state = adjustment.state;
   double pixels = 0, lasers = 0;
@@ -67,7 +67,7 @@ void describe_residuals(const Plate& plate, const std::vector<View>& views,
 
 }  // namespace
 
-Adjustment adjust(const Plate& plate, const std::vector<View>& views, const AdjustmentState& start,
+Adjustment adjust(const Target& plate, const std::vector<View>& views, const AdjustmentState& start,
                   const Deviations& deviations, const AdjustmentOptions& options) {
   constexpr int kRounds = 25;
   constexpr double kSettled = 0.01;  // relative change of a standard deviation

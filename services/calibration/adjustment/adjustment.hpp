@@ -13,7 +13,7 @@ namespace arcstart::calibration {
 
 // Robust in the image and in the robot. Needs at least three views; a view without a stripe adds
 // none to the laser plane.
-Adjustment adjust(const Plate& plate, const std::vector<View>& views, const AdjustmentState& start,
+Adjustment adjust(const Target& plate, const std::vector<View>& views, const AdjustmentState& start,
                   const Deviations& deviations, const AdjustmentOptions& options);
 
 }  // namespace arcstart::calibration

@@ -32,7 +32,7 @@ RigidTransform changed(const std::array<double, 6>& change, const RigidTransform
 
 double Group::factor() const { return redundancy > 0.5 ? std::sqrt(squares / redundancy) : 1; }
 
-AdjustmentProblem::AdjustmentProblem(const Plate& plate, const std::vector<View>& views,
+AdjustmentProblem::AdjustmentProblem(const Target& plate, const std::vector<View>& views,
                                      const AdjustmentState& start, const Deviations& deviations,
                                      bool camera_free)
     : views_(views),
@@ -55,7 +55,7 @@ AdjustmentProblem::AdjustmentProblem(const Plate& plate, const std::vector<View>
   hold_camera(!camera_free);
 }
 
-void AdjustmentProblem::add_view(const Plate& plate, const View& view, std::size_t number) {
+void AdjustmentProblem::add_view(const Target& plate, const View& view, std::size_t number) {
   double* pose = poses_[number].data();
   const Eigen::Matrix3d start = start_.T_camera_plate[number].linear();
   const std::vector<Eigen::Vector3d> points = plate.points();

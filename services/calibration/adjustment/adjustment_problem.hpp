@@ -29,7 +29,7 @@ struct Redundancy {
 class AdjustmentProblem {
  public:
   // All that is given must outlive the problem.
-  AdjustmentProblem(const Plate& plate, const std::vector<View>& views,
+  AdjustmentProblem(const Target& plate, const std::vector<View>& views,
                     const AdjustmentState& start, const Deviations& deviations, bool camera_free);
 
   bool solve();
@@ -37,7 +37,7 @@ class AdjustmentProblem {
   Redundancy redundancy();  // with the camera free
 
  private:
-  void add_view(const Plate& plate, const View& view, std::size_t number);
+  void add_view(const Target& plate, const View& view, std::size_t number);
   void hold_camera(bool hold);
 
   const std::vector<View>& views_;

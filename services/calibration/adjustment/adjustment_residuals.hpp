@@ -21,7 +21,7 @@ Matrix3<T> turned(const T* vector, const Eigen::Matrix3d& start) {
 
 // pose: rotation vector, position.
 template <class T>
-PlateInCamera<T> plate_in_camera(const T* pose, const Eigen::Matrix3d& start) {
+TargetInCamera<T> plate_in_camera(const T* pose, const Eigen::Matrix3d& start) {
   return {turned(pose, start), Eigen::Map<const Vector3<T>>(pose + 3)};
 }
 
@@ -55,7 +55,7 @@ struct LaserResidual {
   template <class T>
   bool operator()(const T* camera, const T* distortion, const T* pose, const T* plane,
                   T* residual) const {
-    const PlateInCamera<T> plate = plate_in_camera(pose, start);
+    const TargetInCamera<T> plate = plate_in_camera(pose, start);
     const Vector2<T> flat = undistorted(camera, distortion, seen, undistorted_start);
     const Vector3<T> ray(flat.x(), flat.y(), T(1)), up = plate.rotation.col(2);
     const T depth = up.dot(plate.position) / up.dot(ray);
@@ -70,7 +70,7 @@ struct LaserResidual {
 // How far the robot was from where it said: translation in base and rotation about the tool centre
 // point, 6 numbers, in mm and rad.
 template <class T>
-void robot_deviation(const PlateInCamera<T>& plate, const Matrix3<T>& hand_eye_rotation,
+void robot_deviation(const TargetInCamera<T>& plate, const Matrix3<T>& hand_eye_rotation,
                      const Vector3<T>& hand_eye_position, const Matrix3<T>& plate_rotation,
                      const Vector3<T>& plate_position, const RigidTransform& said, T* deviation) {
   const Matrix3<T> tool_plate = hand_eye_rotation * plate.rotation;

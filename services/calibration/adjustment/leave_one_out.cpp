@@ -32,7 +32,7 @@ double root_mean_square(const std::vector<double>& values) {
 
 }  // namespace
 
-LeaveOneOut leave_one_out(const Plate& plate, const std::vector<View>& views,
+LeaveOneOut leave_one_out(const Target& plate, const std::vector<View>& views,
                           const CalibrateWithout& calibrate) {
   LeaveOneOut result;
   std::vector<double> laser, target;
@@ -57,7 +57,7 @@ LeaveOneOut leave_one_out(const Plate& plate, const std::vector<View>& views,
   return result;
 }
 
-AdjustmentState adjusted_without(const Plate& plate, const std::vector<View>& views,
+AdjustmentState adjusted_without(const Target& plate, const std::vector<View>& views,
                                  const Adjustment& adjustment, bool camera_free,
                                  std::size_t left_out) {
   AdjustmentState start = adjustment.state;
@@ -66,10 +66,10 @@ AdjustmentState adjusted_without(const Plate& plate, const std::vector<View>& vi
       .state;
 }
 
-AdjustmentState plain_without(const Plate& plate, const std::vector<View>& views,
+AdjustmentState plain_without(const Target& plate, const std::vector<View>& views,
                               const SensorModel& guess, std::size_t left_out) {
   const std::vector<View> others = without(views, left_out);
-  const CameraStage camera = calibrate_camera(plate, others, guess.width, guess.height, &guess);
+  const IntrinsicsStage camera = calibrate_camera(plate, others, guess.width, guess.height, &guess);
   std::vector<RigidTransform> T_base_tool;
   std::vector<Eigen::Vector3d> laser;
   for (std::size_t i = 0; i < others.size(); ++i) {

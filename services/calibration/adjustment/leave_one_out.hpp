@@ -18,16 +18,16 @@ struct LeaveOneOut {
 // Calibrates without the view of this number; its T_camera_plate need not hold it.
 using CalibrateWithout = std::function<AdjustmentState(std::size_t left_out)>;
 
-LeaveOneOut leave_one_out(const Plate& plate, const std::vector<View>& views,
+LeaveOneOut leave_one_out(const Target& plate, const std::vector<View>& views,
                           const CalibrateWithout& calibrate);
 
 // The adjustment again without a view, from its solution, with its standard deviations.
-AdjustmentState adjusted_without(const Plate& plate, const std::vector<View>& views,
+AdjustmentState adjusted_without(const Target& plate, const std::vector<View>& views,
                                  const Adjustment& adjustment, bool camera_free,
                                  std::size_t left_out);
 
 // The plain way without a view: camera, Park's hand-eye, plate's mean, laser plane, each apart.
-AdjustmentState plain_without(const Plate& plate, const std::vector<View>& views,
+AdjustmentState plain_without(const Target& plate, const std::vector<View>& views,
                               const SensorModel& guess, std::size_t left_out);
 
 }  // namespace arcstart::calibration

@@ -2,7 +2,7 @@
 
 namespace arcstart::calibration {
 
-ValidatedAdjustment held_by_validation(const Plate& plate, const std::vector<View>& views,
+ValidatedAdjustment held_by_validation(const Target& plate, const std::vector<View>& views,
                                        const ValidatedAdjustment& estimated, bool camera_free,
                                        const std::function<double(const LeaveOneOut&)>& figure) {
   ValidatedAdjustment best = estimated;

@@ -18,7 +18,7 @@ struct ValidatedAdjustment {
 // poses so loosely held nothing is learnt from them. So the robot is held by a third, a tenth, a
 // thirtieth of the estimate too, and what tells poses best that it never saw is kept. Deviations
 // and covariance stay those of the estimate: the errors are there. `figure` is what to compare.
-ValidatedAdjustment held_by_validation(const Plate& plate, const std::vector<View>& views,
+ValidatedAdjustment held_by_validation(const Target& plate, const std::vector<View>& views,
                                        const ValidatedAdjustment& estimated, bool camera_free,
                                        const std::function<double(const LeaveOneOut&)>& figure);
 

@@ -9,8 +9,8 @@
 
 namespace arcstart::calibration {
 
-PlateFlatness plate_flatness(const Plate& plate, const std::vector<View>& views,
-                             const AdjustmentState& state) {
+TargetFlatness target_flatness(const Target& plate, const std::vector<View>& views,
+                               const AdjustmentState& state) {
   const std::vector<Eigen::Vector3d> points = plate.points();
   const SensorModel& model = state.model;
   const std::array<double, 4> camera{model.fx, model.fy, model.cx, model.cy};
@@ -18,8 +18,8 @@ PlateFlatness plate_flatness(const Plate& plate, const std::vector<View>& views,
                   square = Eigen::VectorXd::Zero(plate.size());
   double residuals = 0;
   for (std::size_t i = 0; i < views.size(); ++i) {
-    const PlateInCamera<double> pose{state.T_camera_plate[i].linear(),
-                                     state.T_camera_plate[i].translation()};
+    const TargetInCamera<double> pose{state.T_camera_plate[i].linear(),
+                                      state.T_camera_plate[i].translation()};
     for (int k = 0; k < plate.size(); ++k) {
       const auto number = static_cast<std::size_t>(k);
       const auto seen_at = [&](double height) {
@@ -41,7 +41,7 @@ PlateFlatness plate_flatness(const Plate& plate, const std::vector<View>& views,
         points[static_cast<std::size_t>(k)].y();
   Eigen::VectorXd height = along.cwiseQuotient(square.cwiseMax(1e-12));
   height -= plane * plane.colPivHouseholderQr().solve(height);
-  PlateFlatness result;
+  TargetFlatness result;
   result.height_mm.assign(height.data(), height.data() + height.size());
   result.bend_mm = height.maxCoeff() - height.minCoeff();
   const double count = 2.0 * static_cast<double>(views.size()) * plate.size();

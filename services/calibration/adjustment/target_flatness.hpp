@@ -7,13 +7,13 @@
 
 namespace arcstart::calibration {
 
-struct PlateFlatness {
+struct TargetFlatness {
   std::vector<double> height_mm;  // of each point, towards the camera; mean and tilt removed
   double bend_mm = 0;             // highest less lowest
   double deviation_mm = 0;        // standard deviation of a height
 };
 
-PlateFlatness plate_flatness(const Plate& plate, const std::vector<View>& views,
-                             const AdjustmentState& state);
+TargetFlatness target_flatness(const Target& plate, const std::vector<View>& views,
+                               const AdjustmentState& state);
 
 }  // namespace arcstart::calibration

@@ -51,8 +51,8 @@ void set_aside_images_without_pose(const std::string& folder,
 
 }  // namespace
 
-CaptureSet::CaptureSet(const std::string& folder, const std::string& plate_file)
-    : folder_(folder), plate_(read_plate_file(plate_file)) {
+CaptureDataset::CaptureDataset(const std::string& folder, const std::string& plate_file)
+    : folder_(folder), plate_(read_target_file(plate_file)) {
   std::error_code error;
   fs::create_directories(fs::path(folder) / "grid", error);
   if (!error) fs::create_directories(fs::path(folder) / "laser", error);
@@ -75,7 +75,7 @@ CaptureSet::CaptureSet(const std::string& folder, const std::string& plate_file)
   locate();
 }
 
-void CaptureSet::add(const CapturedPose& captured) {
+void CaptureDataset::add(const CapturedPose& captured) {
   const int index = poses_.empty() ? 1 : poses_.back().view.index + 1;
   const CalibrationPose pose{index, image_path(folder_, "grid", index),
                              image_path(folder_, "laser", index), captured.T_base_tool};
@@ -86,7 +86,7 @@ void CaptureSet::add(const CapturedPose& captured) {
   locate();
 }
 
-bool CaptureSet::discard(int index) {
+bool CaptureDataset::discard(int index) {
   const auto chosen = [&](const KeptPose& pose) { return index == -1 || pose.view.index == index; };
   std::vector<int> gone;
   for (const KeptPose& pose : poses_)
@@ -100,7 +100,7 @@ bool CaptureSet::discard(int index) {
   return true;
 }
 
-void CaptureSet::look(const CalibrationPose& pose, const cv::Mat& grid, const cv::Mat& laser) {
+void CaptureDataset::look(const CalibrationPose& pose, const cv::Mat& grid, const cv::Mat& laser) {
   KeptPose kept;
   if (grid.empty() || laser.empty() || grid.size() != laser.size() ||
       (!size_.empty() && grid.size() != size_)) {
@@ -109,14 +109,14 @@ void CaptureSet::look(const CalibrationPose& pose, const cv::Mat& grid, const cv
     kept.view.unusable = "its images cannot be read, or are of another size than the first";
   } else {
     size_ = grid.size();
-    kept.view = look_at_pose(pose, plate_, grid, laser);
+    kept.view = detect_view(pose, plate_, grid, laser);
     kept.view.unusable = image_trouble(kept.view, grid, laser);
   }
   poses_.push_back(std::move(kept));
 }
 
 // Written beside and renamed: a cut-off file would lose what is there.
-void CaptureSet::write_poses() const {
+void CaptureDataset::write_poses() const {
   const std::string path = folder_ + "/poses.csv", part = path + ".part";
   if (poses_.empty()) {
     fs::remove(path);
@@ -136,19 +136,19 @@ void CaptureSet::write_poses() const {
   if (!file || error) throw CalibrationSetError(path + ": cannot be written: is the disk full?");
 }
 
-std::vector<View> CaptureSet::usable() const {
+std::vector<View> CaptureDataset::usable() const {
   std::vector<View> views;
   for (const KeptPose& pose : poses_)
     if (pose.view.unusable.empty()) views.push_back(pose.view);
   return views;
 }
 
-void CaptureSet::locate() {
+void CaptureDataset::locate() {
   for (KeptPose& pose : poses_) pose.T_camera_plate.reset();
   const std::vector<View> views = usable();
   if (views.size() < kFewestToLocate) return;
   try {
-    const CameraStage camera = calibrate_camera(plate_, views, size_.width, size_.height);
+    const IntrinsicsStage camera = calibrate_camera(plate_, views, size_.width, size_.height);
     std::size_t next = 0;
     for (KeptPose& pose : poses_)
       if (pose.view.unusable.empty()) pose.T_camera_plate = camera.T_camera_plate[next++];
@@ -157,21 +157,22 @@ void CaptureSet::locate() {
   }
 }
 
-std::string CaptureSet::advice() const {
+std::string CaptureDataset::advice() const {
   std::vector<RigidTransform> located;
   for (const KeptPose& pose : poses_)
     if (pose.T_camera_plate) located.push_back(*pose.T_camera_plate);
   if (located.size() < kFewestToLocate)
     return "tilt the plate by 20 to 40 deg, each time to another side";
-  const auto wishes = spread_advice(pose_spread(located));
+  const auto wishes = diversity_advice(pose_diversity(located));
   return wishes.empty() ? "enough for a good calibration: solve" : wishes.front();
 }
 
-CalibrationRun CaptureSet::solve() const {
+CalibrationRun CaptureDataset::solve() const {
   return calibrate(plate_, usable(), size_.width, size_.height);
 }
 
-std::string CaptureSet::report(const CalibrationRun& run, const CalibrationLimits& limits) const {
+std::string CaptureDataset::report(const CalibrationRun& run,
+                                   const CalibrationLimits& limits) const {
   std::vector<View> views;
   for (const KeptPose& pose : poses_) views.push_back(pose.view);
   const auto both_images = [this](int index) {

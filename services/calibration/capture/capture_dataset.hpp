@@ -19,11 +19,11 @@ struct KeptPose {
   std::optional<RigidTransform> T_camera_plate;  // known from three usable poses on
 };
 
-class CaptureSet {
+class CaptureDataset {
  public:
   // Goes on with what the folder holds; makes it where it is not there. plate_file is copied into
   // it. Throws CalibrationSetError.
-  CaptureSet(const std::string& folder, const std::string& plate_file);
+  CaptureDataset(const std::string& folder, const std::string& plate_file);
 
   // Written to the disk before it is looked at. Throws CalibrationSetError where the disk takes it
   // not.
@@ -45,7 +45,7 @@ class CaptureSet {
   std::vector<View> usable() const;
 
   std::string folder_;
-  Plate plate_;
+  Target plate_;
   cv::Size size_;  // of the images; px
   std::vector<KeptPose> poses_;
 };

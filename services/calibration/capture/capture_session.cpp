@@ -68,8 +68,8 @@ cv::Mat decoded(const image_t& image, std::string& trouble) {
 
 }  // namespace
 
-CaptureDesk::CaptureDesk(Bus& bus, const CalibrationSettings& settings, const Instance& instance,
-                         std::int64_t run_id)
+CaptureSession::CaptureSession(Bus& bus, const CalibrationSettings& settings,
+                               const Instance& instance, std::int64_t run_id)
     : bus_(bus),
       settings_(settings),
       instance_(instance),
@@ -88,7 +88,7 @@ CaptureDesk::CaptureDesk(Bus& bus, const CalibrationSettings& settings, const In
       });
 }
 
-void CaptureDesk::take_command(const calibration_command_t& command) {
+void CaptureSession::take_command(const calibration_command_t& command) {
   if (std::find(known_commands_.begin(), known_commands_.end(), command.command_id) !=
       known_commands_.end())
     return;
@@ -114,14 +114,14 @@ void CaptureDesk::take_command(const calibration_command_t& command) {
   }
 }
 
-void CaptureDesk::take_image(const image_t& image) {
+void CaptureSession::take_image(const image_t& image) {
   if (image.command_id == 0 || !capture_.is_running()) return;
   std::string trouble;
   const cv::Mat grey = decoded(image, trouble);
   capture_.take_image(image.command_id, image.utime, image.laser_on, grey, trouble);
 }
 
-void CaptureDesk::begin_work(std::int8_t state, std::string activity, Work work) {
+void CaptureSession::begin_work(std::int8_t state, std::string activity, Work work) {
   state_.state = state;
   state_.activity = std::move(activity);
   changed_ = true;
@@ -134,7 +134,7 @@ void CaptureDesk::begin_work(std::int8_t state, std::string activity, Work work)
   });
 }
 
-void CaptureDesk::finish_work() {
+void CaptureSession::finish_work() {
   Result result = work_.get();
   if (!result.failure.empty()) spdlog::warn(fmt::format("calibration: {}", result.failure));
   if (!result.verdict.empty()) {
@@ -148,7 +148,7 @@ void CaptureDesk::finish_work() {
   changed_ = true;
 }
 
-void CaptureDesk::tick(std::int64_t now) {
+void CaptureSession::tick(std::int64_t now) {
   if (work_.valid() && work_.wait_for(std::chrono::seconds(0)) == std::future_status::ready)
     finish_work();
   if (const auto wanted = capture_.wanted(now)) {
@@ -182,7 +182,7 @@ void CaptureDesk::tick(std::int64_t now) {
 
 // The result lies beside the images; the cell's own file, which is read and published as any other,
 // is replaced by what is within the limits alone.
-CaptureDesk::Result CaptureDesk::solve() const {
+CaptureSession::Result CaptureSession::solve() const {
   CalibrationNames names{instance_.sensor, instance_.robot, settings_.tool, 0, utime_now()};
   try {
     names.time_offset = read_calibration_file(settings_.file).time_offset;
@@ -208,7 +208,7 @@ CaptureDesk::Result CaptureDesk::solve() const {
   return result;
 }
 
-void CaptureDesk::publish(std::int64_t now) {
+void CaptureSession::publish(std::int64_t now) {
   told_ = now;
   changed_ = false;
   state_.utime = now;

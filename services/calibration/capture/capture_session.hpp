@@ -19,11 +19,11 @@
 
 namespace arcstart::calibration {
 
-class CaptureDesk {
+class CaptureSession {
  public:
   // Throws CalibrationSetError: plate or folder cannot be used. The bus outlives the desk.
-  CaptureDesk(Bus& bus, const CalibrationSettings& settings, const Instance& instance,
-              std::int64_t run_id);
+  CaptureSession(Bus& bus, const CalibrationSettings& settings, const Instance& instance,
+                 std::int64_t run_id);
 
   void tick(std::int64_t now);
 
@@ -44,7 +44,7 @@ class CaptureDesk {
   CalibrationSettings settings_;
   Instance instance_;
   PoseCapture capture_;
-  CaptureSet set_;  // left to work_ while that runs
+  CaptureDataset set_;  // left to work_ while that runs
 
   std::future<Result> work_;
   std::deque<std::int64_t> known_commands_;

@@ -48,7 +48,7 @@ CalibrationSet read_calibration_set(const std::string& folder) {
     throw CalibrationSetError(
         folder + ": is no folder: give one with plate.yaml, poses.csv, grid/ and laser/");
   CalibrationSet set;
-  set.plate = read_plate_file((root / "plate.yaml").string());
+  set.plate = read_target_file((root / "plate.yaml").string());
   const auto poses = read_poses_file((root / "poses.csv").string());
   if (!fs::is_directory(root / "grid"))
     throw CalibrationSetError((root / "grid").string() +

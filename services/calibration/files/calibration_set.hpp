@@ -23,7 +23,7 @@ struct CalibrationPose {
 };
 
 struct CalibrationSet {
-  Plate plate;
+  Target plate;
   std::vector<CalibrationPose> poses;  // by index
 };
 

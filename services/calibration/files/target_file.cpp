@@ -96,7 +96,7 @@ void refuse_metres(const std::map<int, RigidTransform>& poses, const std::string
 
 }  // namespace
 
-Plate read_plate_file(const std::string& path) {
+Target read_target_file(const std::string& path) {
   PlateKeys keys;
   try {
     const YAML::Node root = YAML::LoadFile(path);
@@ -114,10 +114,10 @@ Plate read_plate_file(const std::string& path) {
   }
   if (const std::string error = plate_error(keys); !error.empty())
     throw CalibrationSetError(path + ": " + error);
-  Plate plate;
-  plate.pattern = keys.pattern == "circles"      ? PlatePattern::circles
-                  : keys.pattern == "chessboard" ? PlatePattern::chessboard
-                                                 : PlatePattern::asymmetric_circles;
+  Target plate;
+  plate.pattern = keys.pattern == "circles"      ? TargetPattern::circles
+                  : keys.pattern == "chessboard" ? TargetPattern::chessboard
+                                                 : TargetPattern::asymmetric_circles;
   plate.columns = keys.columns;
   plate.rows = keys.rows;
   plate.pitch_mm = keys.pitch_mm;

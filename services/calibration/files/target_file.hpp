@@ -10,7 +10,7 @@
 namespace arcstart::calibration {
 
 // Throws CalibrationSetError.
-Plate read_plate_file(const std::string& path);
+Target read_target_file(const std::string& path);
 
 // T_base_tool by index. Throws CalibrationSetError.
 std::map<int, RigidTransform> read_poses_file(const std::string& path);

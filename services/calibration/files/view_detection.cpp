@@ -7,8 +7,8 @@
 
 namespace arcstart::calibration {
 
-View look_at_pose(const CalibrationPose& pose, const Plate& plate, const cv::Mat& grid,
-                  const cv::Mat& laser) {
+View detect_view(const CalibrationPose& pose, const Target& plate, const cv::Mat& grid,
+                 const cv::Mat& laser) {
   View view;
   view.index = pose.index;
   view.T_base_tool = pose.T_base_tool;

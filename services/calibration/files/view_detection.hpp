@@ -9,7 +9,7 @@
 namespace arcstart::calibration {
 
 // grid: laser off, or both in one; laser: may be the same. Grey, 8 bit.
-View look_at_pose(const CalibrationPose& pose, const Plate& plate, const cv::Mat& grid,
-                  const cv::Mat& laser);
+View detect_view(const CalibrationPose& pose, const Target& plate, const cv::Mat& grid,
+                 const cv::Mat& laser);
 
 }  // namespace arcstart::calibration

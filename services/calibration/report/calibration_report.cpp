@@ -78,7 +78,8 @@ std::string figures(const CalibrationRun& run, const CalibrationLimits& limits) 
   return text + "</table>\n";
 }
 
-std::string charts(const Plate& plate, const CalibrationRun& run, const CalibrationLimits& limits) {
+std::string charts(const Target& plate, const CalibrationRun& run,
+                   const CalibrationLimits& limits) {
   const Adjustment& a = run.adjustment;
   std::vector<std::string> labels;
   std::vector<double> moved, turned;
@@ -129,7 +130,7 @@ std::string charts(const Plate& plate, const CalibrationRun& run, const Calibrat
 
 }  // namespace
 
-std::string calibration_report(const std::string& title, const Plate& plate,
+std::string calibration_report(const std::string& title, const Target& plate,
                                const std::vector<View>& views, const CalibrationRun& run,
                                const CalibrationLimits& limits,
                                const std::vector<std::string>& missed, const PoseImage& image) {

@@ -15,7 +15,7 @@ namespace arcstart::calibration {
 using PoseImage = std::function<cv::Mat(int index)>;
 
 // views: of all poses, also those that were left out.
-std::string calibration_report(const std::string& title, const Plate& plate,
+std::string calibration_report(const std::string& title, const Target& plate,
                                const std::vector<View>& views, const CalibrationRun& run,
                                const CalibrationLimits& limits,
                                const std::vector<std::string>& missed, const PoseImage& image);

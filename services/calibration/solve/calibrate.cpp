@@ -39,7 +39,7 @@ void keep_usable(const std::vector<View>& views, CalibrationRun& run) {
 }
 
 // Camera, without the views whose grid no camera could show so.
-void find_camera(const Plate& plate, int width, int height, CalibrationRun& run) {
+void find_camera(const Target& plate, int width, int height, CalibrationRun& run) {
   for (;;) {
     run.camera = calibrate_camera(plate, run.views, width, height);
     const auto odd = odd_image(run.camera.view_rms);
@@ -74,7 +74,7 @@ void leave_out_wrong_turns(CalibrationRun& run) {
 }
 
 // The stripes, the plane fitted for itself, the grid's crossings. Why not, where there is none.
-std::string find_laser_plane(const Plate& plate, CalibrationRun& run) {
+std::string find_laser_plane(const Target& plate, CalibrationRun& run) {
   std::vector<Eigen::Vector3d> points;
   std::size_t stripes = 0;
   double squares = 0;
@@ -106,18 +106,18 @@ std::string find_laser_plane(const Plate& plate, CalibrationRun& run) {
   return "";
 }
 
-std::string adjust_all(const Plate& plate, CalibrationRun& run) {
+std::string adjust_all(const Target& plate, CalibrationRun& run) {
   for (;;) {
-    run.spread = pose_spread(run.camera.T_camera_plate);
-    if (const std::string refusal = spread_refusal(run.spread); !refusal.empty()) return refusal;
+    run.spread = pose_diversity(run.camera.T_camera_plate);
+    if (const std::string refusal = diversity_refusal(run.spread); !refusal.empty()) return refusal;
     run.camera_held = camera_must_be_held(run.spread);
     run.methods =
         closed_form_hand_eye(tool_poses(run.views), run.camera.T_camera_plate, plate.points());
     const HandEyeMethod& first = best_method(run.methods);
     if (!std::isfinite(first.consistency_mm))
       return "no closed form of the hand-eye works: add poses tilted to other sides";
-    run.scale = length_scale(tool_poses(run.views), run.camera.T_camera_plate,
-                             first.T_tool_camera.linear());
+    run.scale = scale_consistency(tool_poses(run.views), run.camera.T_camera_plate,
+                                  first.T_tool_camera.linear());
     if (is_gross(run.scale)) return length_slip(run.scale, plate);
     Deviations deviations;
     deviations.pixel = std::max(0.02, run.camera.rms / std::numbers::sqrt2);
@@ -152,7 +152,7 @@ std::string adjust_all(const Plate& plate, CalibrationRun& run) {
 
 }  // namespace
 
-CalibrationRun calibrate(const Plate& plate, const std::vector<View>& views, int width, int height,
+CalibrationRun calibrate(const Target& plate, const std::vector<View>& views, int width, int height,
                          const CalibrateOptions& options) {
   CalibrationRun run;
   keep_usable(views, run);
@@ -168,17 +168,17 @@ CalibrationRun calibrate(const Plate& plate, const std::vector<View>& views, int
     run.refused = error.what();
     return run;
   }
-  settle_plate_turns(plate, run.views, run.camera.T_camera_plate);
+  settle_target_symmetry(plate, run.views, run.camera.T_camera_plate);
   leave_out_wrong_turns(run);
-  run.spread = pose_spread(run.camera.T_camera_plate);
-  run.refused = spread_refusal(run.spread);
+  run.spread = pose_diversity(run.camera.T_camera_plate);
+  run.refused = diversity_refusal(run.spread);
   if (run.refused.empty())
     run.refused = quaternion_slip(tool_poses(run.views), run.camera.T_camera_plate, plate.points());
   if (run.refused.empty()) run.refused = find_laser_plane(plate, run);
   if (!run.refused.empty()) return run;
   options.progress("adjustment");
   run.refused = adjust_all(plate, run);
-  if (run.refused.empty()) judge(plate, options, run);
+  if (run.refused.empty()) assess_quality(plate, options, run);
   return run;
 }
 

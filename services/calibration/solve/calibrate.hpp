@@ -8,7 +8,7 @@
 namespace arcstart::calibration {
 
 // views: all poses, with what was found in their images. width, height: of the full sensor; px.
-CalibrationRun calibrate(const Plate& plate, const std::vector<View>& views, int width, int height,
+CalibrationRun calibrate(const Target& plate, const std::vector<View>& views, int width, int height,
                          const CalibrateOptions& options = {});
 
 }  // namespace arcstart::calibration

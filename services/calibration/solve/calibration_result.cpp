@@ -32,7 +32,7 @@ Calibration to_calibration(const CalibrationRun& run, const CalibrationNames& na
   return calibration;
 }
 
-double hand_eye_residual(const Plate& plate, const CalibrationRun& run) {
+double hand_eye_residual(const Target& plate, const CalibrationRun& run) {
   const AdjustmentState& state = run.adjustment.state;
   double sum = 0;
   int count = 0;

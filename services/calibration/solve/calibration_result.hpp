@@ -21,7 +21,7 @@ Calibration to_calibration(const CalibrationRun& run, const CalibrationNames& na
 
 // RMS distance of the plate's points, carried to base with what the robot said, from where the set
 // puts them; mm.
-double hand_eye_residual(const Plate& plate, const CalibrationRun& run);
+double hand_eye_residual(const Target& plate, const CalibrationRun& run);
 
 // Which limits the run misses, a line each; none where it passes.
 std::vector<std::string> missed_limits(const CalibrationRun& run, const CalibrationLimits& limits);

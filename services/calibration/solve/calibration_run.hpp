@@ -28,20 +28,20 @@ struct CalibrationRun {
   std::vector<LeftOutView> left_out;
   std::vector<View> views;  // that the result rests on, stripes reduced to their straight line
 
-  CameraStage camera;
-  PoseSpread spread;
+  IntrinsicsStage camera;
+  PoseDiversity spread;
   bool camera_held = false;
   bool has_laser = false;
   LaserPlaneFit laser_apart;           // fitted for itself, before the adjustment
   int crossings = 0;                   // of stripe and grid lines
   double crossing_rms_mm = 0;          // between where they put the stripe and where rays do
   std::vector<HandEyeMethod> methods;  // closed forms, on the same views
-  LengthScale scale;                   // of the plate against the robot
+  ScaleConsistency scale;              // of the plate against the robot
   Adjustment adjustment;
   double hand_eye_residual_mm = 0;  // RMS of the plate's points, as the robot's word carries
                                     // them to base, from where the set puts them
   LeaveOneOut left_one_out, plain_left_one_out;  // of the adjustment; of the plain way with Park
-  PlateFlatness flatness;
+  TargetFlatness flatness;
   std::vector<PredictedError> field;
 };
 

@@ -23,15 +23,15 @@ void warn_of_method_spread(CalibrationRun& run) {
 }
 
 // What follows from the adjustment.
-void describe(const Plate& plate, CalibrationRun& run) {
+void describe(const Target& plate, CalibrationRun& run) {
   run.hand_eye_residual_mm = hand_eye_residual(plate, run);
-  run.flatness = plate_flatness(plate, run.views, run.adjustment.state);
+  run.flatness = target_flatness(plate, run.views, run.adjustment.state);
   run.field = predicted_field(run.adjustment.state, run.adjustment.covariance, run.views);
 }
 
 }  // namespace
 
-void judge(const Plate& plate, const CalibrateOptions& options, CalibrationRun& run) {
+void assess_quality(const Target& plate, const CalibrateOptions& options, CalibrationRun& run) {
   warn_of_method_spread(run);
   if (const std::string slip = length_slip(run.scale, plate); !slip.empty())
     run.warnings.push_back(slip);
@@ -43,7 +43,7 @@ void judge(const Plate& plate, const CalibrateOptions& options, CalibrationRun& 
         "camera held as the camera stage found it: {} views that turn by {:.0f} deg do not tell "
         "camera and hand-eye apart",
         run.spread.views, run.spread.rotation_deg));
-  run.advice = spread_advice(run.spread);
+  run.advice = diversity_advice(run.spread);
   describe(plate, run);
   if (run.flatness.bend_mm > std::max(0.05, 6 * run.flatness.deviation_mm))
     run.warnings.push_back(

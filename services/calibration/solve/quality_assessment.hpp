@@ -7,6 +7,6 @@ namespace arcstart::calibration {
 
 // Fills what of the run follows from its adjustment. Where the plain way tells unseen poses better,
 // the adjustment is made anew with the robot held tighter.
-void judge(const Plate& plate, const CalibrateOptions& options, CalibrationRun& run);
+void assess_quality(const Target& plate, const CalibrateOptions& options, CalibrationRun& run);
 
 }  // namespace arcstart::calibration

@@ -27,7 +27,7 @@ std::optional<double> place_on_line(const std::vector<double>& s, const std::vec
 
 }  // namespace
 
-std::vector<double> crossing_differences(const SensorModel& camera, const Plate& plate,
+std::vector<double> crossing_differences(const SensorModel& camera, const Target& plate,
                                          const RigidTransform& T_camera_plate, const View& view) {
   const std::vector<Eigen::Vector3d> model = plate.points();
   // The stripe's line on z = 1 from its two ends, and on the plate by the rays.
@@ -52,7 +52,7 @@ std::vector<double> crossing_differences(const SensorModel& camera, const Plate&
   const Eigen::Vector3d stripe = line_of(flat), stripe_on = line_of(on_plate);
 
   // The grid's points on z = 1, circles by their centres.
-  const PlateInCamera<double> pose{T_camera_plate.linear(), T_camera_plate.translation()};
+  const TargetInCamera<double> pose{T_camera_plate.linear(), T_camera_plate.translation()};
   std::vector<Eigen::Vector2d> seen;
   for (std::size_t i = 0; i < model.size(); ++i) {
     const auto ray = undistorted_ray(camera, view.target[i].x(), view.target[i].y());

@@ -32,7 +32,7 @@ RigidTransform to_transform(const cv::Mat& turn, const cv::Mat& shift) {
   return result;
 }
 
-std::vector<cv::Point3f> model_points(const Plate& plate) {
+std::vector<cv::Point3f> model_points(const Target& plate) {
   std::vector<cv::Point3f> result;
   for (const Eigen::Vector3d& point : plate.points())
     result.push_back({static_cast<float>(point.x()), static_cast<float>(point.y()), 0});
@@ -47,7 +47,7 @@ Eigen::Vector2d seen_as(const SensorModel& model, const RigidTransform& pose,
 }
 
 // What was seen, as if each circle's centre had been seen instead of its ellipse's.
-std::vector<cv::Point2f> without_bias(const SensorModel& model, const Plate& plate,
+std::vector<cv::Point2f> without_bias(const SensorModel& model, const Target& plate,
                                       const RigidTransform& pose, const View& view) {
   std::vector<cv::Point2f> result;
   const std::vector<Eigen::Vector3d> points = plate.points();
@@ -69,10 +69,10 @@ std::vector<cv::Point2f> as_seen(const View& view) {
 
 }  // namespace
 
-CameraStage calibrate_camera(const Plate& plate, const std::vector<View>& views, int width,
-                             int height, const SensorModel* guess) {
+IntrinsicsStage calibrate_camera(const Target& plate, const std::vector<View>& views, int width,
+                                 int height, const SensorModel* guess) {
   const int rounds = plate.has_circles() ? 4 : 1;
-  CameraStage stage;
+  IntrinsicsStage stage;
   stage.model.width = width;
   stage.model.height = height;
   if (guess) stage.model = *guess;
@@ -112,7 +112,7 @@ CameraStage calibrate_camera(const Plate& plate, const std::vector<View>& views,
   return stage;
 }
 
-RigidTransform locate_plate(const SensorModel& model, const Plate& plate, const View& view) {
+RigidTransform locate_plate(const SensorModel& model, const Target& plate, const View& view) {
   const std::vector<cv::Point3f> object = model_points(plate);
   std::vector<cv::Point2f> image = as_seen(view);
   cv::Mat turn, shift;
@@ -126,7 +126,7 @@ RigidTransform locate_plate(const SensorModel& model, const Plate& plate, const 
   return pose;
 }
 
-std::vector<Eigen::Vector2d> reprojection(const SensorModel& model, const Plate& plate,
+std::vector<Eigen::Vector2d> reprojection(const SensorModel& model, const Target& plate,
                                           const RigidTransform& T_camera_plate, const View& view) {
   std::vector<Eigen::Vector2d> result;
   const std::vector<Eigen::Vector3d> points = plate.points();

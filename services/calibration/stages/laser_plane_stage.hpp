@@ -34,7 +34,7 @@ LaserPlaneFit fit_laser_plane(const std::vector<Eigen::Vector3d>& points);
 // The check by another way: where the stripe's line crosses the lines of the grid, the crossing's
 // place follows from the invariance of the cross-ratio alone. Distance from where the rays put the
 // stripe, each crossing between the grid's points; mm.
-std::vector<double> crossing_differences(const SensorModel& camera, const Plate& plate,
+std::vector<double> crossing_differences(const SensorModel& camera, const Target& plate,
                                          const RigidTransform& T_camera_plate, const View& view);
 
 }  // namespace arcstart::calibration

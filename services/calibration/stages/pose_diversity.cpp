@@ -20,8 +20,8 @@ constexpr double kFreeCameraRotation = 30;  // deg
 
 }  // namespace
 
-PoseSpread pose_spread(const std::vector<RigidTransform>& T_camera_plate) {
-  PoseSpread spread;
+PoseDiversity pose_diversity(const std::vector<RigidTransform>& T_camera_plate) {
+  PoseDiversity spread;
   spread.views = static_cast<int>(T_camera_plate.size());
   Eigen::Matrix3d turns = Eigen::Matrix3d::Zero();
   spread.nearest_mm = 1e9;
@@ -55,7 +55,7 @@ PoseSpread pose_spread(const std::vector<RigidTransform>& T_camera_plate) {
   return spread;
 }
 
-std::string spread_refusal(const PoseSpread& spread) {
+std::string diversity_refusal(const PoseDiversity& spread) {
   if (spread.views < kFewestViews)
     return fmt::format(
         "{} usable poses, at least {} are needed: add poses tilted 20 to 40 deg to "
@@ -79,11 +79,11 @@ std::string spread_refusal(const PoseSpread& spread) {
   return "";
 }
 
-bool camera_must_be_held(const PoseSpread& spread) {
+bool camera_must_be_held(const PoseDiversity& spread) {
   return spread.views < kFreeCameraViews || spread.rotation_deg < kFreeCameraRotation;
 }
 
-std::vector<std::string> spread_advice(const PoseSpread& spread) {
+std::vector<std::string> diversity_advice(const PoseDiversity& spread) {
   std::vector<std::string> advice;
   if (spread.tilt_deg < 30)
     advice.push_back(

@@ -8,7 +8,7 @@
 
 namespace arcstart::calibration {
 
-struct PoseSpread {
+struct PoseDiversity {
   int views = 0;
   double tilt_deg = 0;      // of the plate from square to the optical axis, at most
   double rotation_deg = 0;  // between two views, at most
@@ -20,16 +20,16 @@ struct PoseSpread {
   int tilted_towards = 0;                  // of four directions, how many the plate was tilted to
 };
 
-PoseSpread pose_spread(const std::vector<RigidTransform>& T_camera_plate);
+PoseDiversity pose_diversity(const std::vector<RigidTransform>& T_camera_plate);
 
 // Why no calibration can come of the poses, and what is missing; empty where one can.
-std::string spread_refusal(const PoseSpread& spread);
+std::string diversity_refusal(const PoseDiversity& spread);
 
 // Too few or too alike views to tell camera and hand-eye apart: the camera is then held as the
 // camera stage found it.
-bool camera_must_be_held(const PoseSpread& spread);
+bool camera_must_be_held(const PoseDiversity& spread);
 
 // What further poses would add most, best first, for people.
-std::vector<std::string> spread_advice(const PoseSpread& spread);
+std::vector<std::string> diversity_advice(const PoseDiversity& spread);
 
 }  // namespace arcstart::calibration

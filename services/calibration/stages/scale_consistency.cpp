@@ -14,9 +14,9 @@ constexpr double kGross = 0.1;
 
 }  // namespace
 
-LengthScale length_scale(const std::vector<RigidTransform>& T_base_tool,
-                         const std::vector<RigidTransform>& T_camera_plate,
-                         const Eigen::Matrix3d& hand_eye_rotation) {
+ScaleConsistency scale_consistency(const std::vector<RigidTransform>& T_base_tool,
+                                   const std::vector<RigidTransform>& T_camera_plate,
+                                   const Eigen::Matrix3d& hand_eye_rotation) {
   Eigen::Matrix4d normal = Eigen::Matrix4d::Zero();
   Eigen::Vector4d right = Eigen::Vector4d::Zero();
   double squares = 0;
@@ -42,7 +42,7 @@ LengthScale length_scale(const std::vector<RigidTransform>& T_base_tool,
   return {solution(3), std::sqrt(left_over / equations * inverse(3, 3) * equations / independent)};
 }
 
-std::string length_slip(const LengthScale& scale, const Plate& plate) {
+std::string length_slip(const ScaleConsistency& scale, const Target& plate) {
   if (std::abs(scale.factor - 1) < std::max(kLeast, kSure * scale.deviation)) return "";
   return fmt::format(
       "robot and plate do not mean the same by a millimetre: the robot's moves fit a pitch_mm of "
@@ -51,7 +51,7 @@ std::string length_slip(const LengthScale& scale, const Plate& plate) {
       scale.factor * plate.pitch_mm, 2 * scale.deviation * plate.pitch_mm, plate.pitch_mm);
 }
 
-bool is_gross(const LengthScale& scale) {
+bool is_gross(const ScaleConsistency& scale) {
   return std::abs(scale.factor - 1) > std::max(kGross, kSure * scale.deviation);
 }
 

@@ -9,21 +9,21 @@
 
 namespace arcstart::calibration {
 
-struct LengthScale {
+struct ScaleConsistency {
   double factor = 1;     // of the plate's pitch, so that the robot's moves fit best
   double deviation = 0;  // its standard deviation
 };
 
 // From A X = X B between all pairs of views with the camera's moves scaled: least squares for the
 // hand-eye's position and the factor, its rotation given.
-LengthScale length_scale(const std::vector<RigidTransform>& T_base_tool,
-                         const std::vector<RigidTransform>& T_camera_plate,
-                         const Eigen::Matrix3d& hand_eye_rotation);
+ScaleConsistency scale_consistency(const std::vector<RigidTransform>& T_base_tool,
+                                   const std::vector<RigidTransform>& T_camera_plate,
+                                   const Eigen::Matrix3d& hand_eye_rotation);
 
 // What is to be said of a factor that is not 1, empty where it may be.
-std::string length_slip(const LengthScale& scale, const Plate& plate);
+std::string length_slip(const ScaleConsistency& scale, const Target& plate);
 
 // So far from 1 that nothing can come of the set.
-bool is_gross(const LengthScale& scale);
+bool is_gross(const ScaleConsistency& scale);
 
 }  // namespace arcstart::calibration

@@ -10,7 +10,7 @@ namespace {
 double angle(const Eigen::Matrix3d& rotation) { return Eigen::AngleAxisd(rotation).angle(); }
 
 // The plate turned about its middle, as a transform of its points.
-RigidTransform turned_plate(const Plate& plate, int turns) {
+RigidTransform turned_plate(const Target& plate, int turns) {
   RigidTransform result = RigidTransform::Identity();
   result.linear() =
       Eigen::AngleAxisd(2 * std::numbers::pi * turns / plate.symmetry(), Eigen::Vector3d::UnitZ())
@@ -24,7 +24,7 @@ RigidTransform turned_plate(const Plate& plate, int turns) {
 // How far the camera's turn between two views is from the robot's; rad.
 class Disagreement {
  public:
-  Disagreement(const Plate& plate, const std::vector<View>& views,
+  Disagreement(const Target& plate, const std::vector<View>& views,
                const std::vector<RigidTransform>& T_camera_plate)
       : views_(views), seen_(T_camera_plate) {
     for (int turn = 0; turn < plate.symmetry(); ++turn)
@@ -90,8 +90,8 @@ double settle_from(const Disagreement& disagreement, std::size_t first, int symm
 
 }  // namespace
 
-void settle_plate_turns(const Plate& plate, std::vector<View>& views,
-                        std::vector<RigidTransform>& T_camera_plate) {
+void settle_target_symmetry(const Target& plate, std::vector<View>& views,
+                            std::vector<RigidTransform>& T_camera_plate) {
   const int symmetry = plate.symmetry();
   if (symmetry == 1) return;
   const Disagreement disagreement(plate, views, T_camera_plate);

@@ -11,7 +11,7 @@ namespace arcstart::calibration {
 
 // Relabels the views' targets, and turns T_camera_plate with them, so that between views the camera
 // turned by the angles by which the robot did. Plates without symmetry stay as they are.
-void settle_plate_turns(const Plate& plate, std::vector<View>& views,
-                        std::vector<RigidTransform>& T_camera_plate);
+void settle_target_symmetry(const Target& plate, std::vector<View>& views,
+                            std::vector<RigidTransform>& T_camera_plate);
 
 }  // namespace arcstart::calibration

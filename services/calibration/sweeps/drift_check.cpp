@@ -32,15 +32,15 @@ constexpr double kDeviations = 4;        // of the calibration's own, beyond whi
 double degrees(double radians) { return radians * 180 / EIGEN_PI; }
 
 struct ScannedStripe {
-  const SweptStripe* stripe;
+  const SweepProfile* stripe;
   RigidTransform T_base_tool;
 };
 
 // By scan, those with a position.
-std::map<std::int64_t, std::vector<ScannedStripe>> by_scan(const SweepRecord& record,
+std::map<std::int64_t, std::vector<ScannedStripe>> by_scan(const SweepData& record,
                                                            const Calibration& calibration) {
   std::map<std::int64_t, std::vector<ScannedStripe>> scans;
-  for (const SweptStripe& stripe : record.stripes) {
+  for (const SweepProfile& stripe : record.stripes) {
     const auto lookup = record.trajectory.at(stripe.utime + seconds_to_us(calibration.time_offset));
     if (lookup.state == reconstruction::TrajectoryQueue::State::found)
       scans[stripe.scan_id].push_back({&stripe, lookup.T_base_tool});
@@ -62,7 +62,7 @@ double largest_turn(const std::vector<ScanView>& views) {
 
 // Each row: what of a shift in tool makes two views differ, as the distance from their mean. Says
 // so where a sensor could be shifted unseen in two directions of three or all.
-void tell_what_shows(const std::vector<Eigen::RowVector3d>& rows, ScanAgreement& result) {
+void tell_what_shows(const std::vector<Eigen::RowVector3d>& rows, DriftCheck& result) {
   Eigen::Matrix3d sum = Eigen::Matrix3d::Zero();
   double most = 0;
   for (const Eigen::RowVector3d& row : rows) {
@@ -82,7 +82,7 @@ void tell_what_shows(const std::vector<Eigen::RowVector3d>& rows, ScanAgreement&
 }
 
 // Root mean square over what was seen, -1 where the calibration does not say.
-double predicted(const SweepRecord& record, const Calibration& calibration) {
+double predicted(const SweepData& record, const Calibration& calibration) {
   constexpr int n = Calibration::kParameters;
   if (calibration.covariance.size() != n * n) return -1;
   SetCovariance covariance;
@@ -90,7 +90,7 @@ double predicted(const SweepRecord& record, const Calibration& calibration) {
     for (int column = 0; column < kSetParameters; ++column)
       covariance(row, column) = calibration.covariance[static_cast<std::size_t>(row * n + column)];
   std::vector<Eigen::Vector2d> pixels;
-  for (const SweptStripe& stripe : record.stripes)
+  for (const SweepProfile& stripe : record.stripes)
     for (const auto& segment : stripe.segments) pixels.push_back(segment[segment.size() / 2]);
   AdjustmentState state;
   state.model = calibration.sensor_model;
@@ -163,9 +163,9 @@ constexpr const char* kSecondSide =
 
 }  // namespace
 
-ScanAgreement agreement_on_ball(const SweepRecord& record, const Calibration& calibration,
-                                double radius_mm) {
-  ScanAgreement result;
+DriftCheck check_on_ball(const SweepData& record, const Calibration& calibration,
+                         double radius_mm) {
+  DriftCheck result;
   result.predicted_mm = predicted(record, calibration);
   Eigen::Vector3d sum = Eigen::Vector3d::Zero();
   for (const auto& [id, scan] : by_scan(record, calibration)) {
@@ -221,8 +221,8 @@ ScanAgreement agreement_on_ball(const SweepRecord& record, const Calibration& ca
   return result;
 }
 
-ScanAgreement agreement_on_faces(const SweepRecord& record, const Calibration& calibration) {
-  ScanAgreement result;
+DriftCheck check_on_faces(const SweepData& record, const Calibration& calibration) {
+  DriftCheck result;
   result.predicted_mm = predicted(record, calibration);
   std::vector<std::vector<SeenFace>> seen;
   for (const auto& [id, scan] : by_scan(record, calibration)) {
@@ -263,7 +263,7 @@ ScanAgreement agreement_on_faces(const SweepRecord& record, const Calibration& c
   return result;
 }
 
-std::string drift(const ScanAgreement& agreement, double limit_mm) {
+std::string drift(const DriftCheck& agreement, double limit_mm) {
   if (agreement.error_mm > limit_mm)
     return fmt::format("the scans disagree by {:.3f} mm, the limit is {} mm", agreement.error_mm,
                        limit_mm);

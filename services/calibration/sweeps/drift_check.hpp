@@ -20,7 +20,7 @@ struct ScanView {
                            // own faces
 };
 
-struct ScanAgreement {
+struct DriftCheck {
   std::string refused;                // why nothing can be said, and what is missing
   std::vector<std::string> warnings;  // a line each
   double error_mm = 0;       // the largest of the three: how far the scans are from agreeing
@@ -37,15 +37,14 @@ struct ScanAgreement {
 };
 
 // A ball of known radius in every scan, on a table or a foot.
-ScanAgreement agreement_on_ball(const SweepRecord& record, const Calibration& calibration,
-                                double radius_mm);
+DriftCheck check_on_ball(const SweepData& record, const Calibration& calibration, double radius_mm);
 
 // Flat faces that two scans see alike, where both see them.
-ScanAgreement agreement_on_faces(const SweepRecord& record, const Calibration& calibration);
+DriftCheck check_on_faces(const SweepData& record, const Calibration& calibration);
 
 // Why the calibration is to be made anew; empty where it still holds. It has drifted where the
 // error is over the limit, or over four times what the calibration itself expects and over what a
 // robot's repeatability explains.
-std::string drift(const ScanAgreement& agreement, double limit_mm);
+std::string drift(const DriftCheck& agreement, double limit_mm);
 
 }  // namespace arcstart::calibration

@@ -85,7 +85,7 @@ MovingPoint SensorMotion::point(const Eigen::Vector3d& in_camera) const {
           (after_ * in_camera - before_ * in_camera) / (2e-6 * static_cast<double>(kApart))};
 }
 
-std::vector<SteadySweep> steady_sweeps(const SweepRecord& record, const Calibration& calibration) {
+std::vector<SteadySweep> steady_sweeps(const SweepData& record, const Calibration& calibration) {
   // Where the optical axis meets the laser plane.
   const Plane& laser = calibration.sensor_model.laser_plane;
   const Eigen::Vector3d ahead =
@@ -99,7 +99,7 @@ std::vector<SteadySweep> steady_sweeps(const SweepRecord& record, const Calibrat
     run.reset();
   };
   for (std::size_t i = 0; i < record.stripes.size(); ++i) {
-    const SweptStripe& stripe = record.stripes[i];
+    const SweepProfile& stripe = record.stripes[i];
     const auto motion =
         SensorMotion::at(record.trajectory, calibration.T_tool_camera, stripe.utime + offset);
     if (!motion || stripe.segments.empty()) continue;

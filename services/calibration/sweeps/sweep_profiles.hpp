@@ -11,7 +11,7 @@
 
 namespace arcstart::calibration {
 
-struct SweptStripe {
+struct SweepProfile {
   std::int64_t utime = 0;    // middle of the exposure, as stamped; us
   std::int64_t scan_id = 0;  // 0 outside a scan
   // Centres in order, segment by segment; distorted pixels.
@@ -19,8 +19,8 @@ struct SweptStripe {
 };
 
 // One sensor's stripes and its robot's way, both in order of time.
-struct SweepRecord {
-  std::vector<SweptStripe> stripes;
+struct SweepData {
+  std::vector<SweepProfile> stripes;
   reconstruction::TrajectoryQueue trajectory{std::int64_t{3600} * 1'000'000,
                                              100'000};  // an hour; 100 ms
 };
@@ -59,6 +59,6 @@ struct SteadySweep {
 };
 
 // Runs of five stripes and more at one velocity within 10 %, above 2 mm/s.
-std::vector<SteadySweep> steady_sweeps(const SweepRecord& record, const Calibration& calibration);
+std::vector<SteadySweep> steady_sweeps(const SweepData& record, const Calibration& calibration);
 
 }  // namespace arcstart::calibration

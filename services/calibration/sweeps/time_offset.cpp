@@ -18,7 +18,7 @@ constexpr double kWorthless = 2e-3;       // s, standard deviation of an answer 
 constexpr double kDoubtful = 0.3e-3;      // s, and of one that is not good
 constexpr double kPlayDeviation = 0.1;    // mm
 
-std::vector<SweptPiece> pieces_of(const SweepRecord& record, const Calibration& calibration,
+std::vector<SweptPiece> pieces_of(const SweepData& record, const Calibration& calibration,
                                   const std::vector<SteadySweep>& sweeps) {
   std::vector<SweptPiece> pieces;
   for (std::size_t s = 0; s < sweeps.size(); ++s)
@@ -72,7 +72,7 @@ double distance_rms(const OffsetProblem& problem, const OffsetAdjustment& found,
 }
 
 // What each sweep saw: how fast it ran across the faces, and which offset it has alone.
-std::vector<SweepFinding> sweeps_alone(const SweepRecord& record, const OffsetProblem& problem,
+std::vector<SweepFinding> sweeps_alone(const SweepData& record, const OffsetProblem& problem,
                                        const std::vector<SteadySweep>& sweeps,
                                        const std::vector<SweptPiece>& pieces,
                                        const OffsetAdjustment& found) {
@@ -161,7 +161,7 @@ void judge(TimeOffset& result) {
 
 }  // namespace
 
-TimeOffset find_time_offset(const SweepRecord& record, const Calibration& calibration) {
+TimeOffset find_time_offset(const SweepData& record, const Calibration& calibration) {
   TimeOffset result;
   const std::vector<SteadySweep> steady = steady_sweeps(record, calibration);
   if (steady.empty()) {

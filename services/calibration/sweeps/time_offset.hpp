@@ -38,7 +38,7 @@ struct TimeOffset {
 
 // calibration: camera, laser plane and hand-eye as they are; the offset is looked for within 0.15 s
 // of its own.
-TimeOffset find_time_offset(const SweepRecord& record, const Calibration& calibration);
+TimeOffset find_time_offset(const SweepData& record, const Calibration& calibration);
 
 // The set with the offset found and its variance, without an id.
 Calibration with_time_offset(const Calibration& calibration, const TimeOffset& found);

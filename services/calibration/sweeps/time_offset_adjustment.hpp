@@ -33,7 +33,7 @@ struct OffsetAdjustment {
 class OffsetProblem {
  public:
   // All that is given must outlive the problem.
-  OffsetProblem(const SweepRecord& record, const RigidTransform& T_tool_camera,
+  OffsetProblem(const SweepData& record, const RigidTransform& T_tool_camera,
                 const std::vector<SweptPiece>& pieces, std::size_t sweeps)
       : record_(record), T_tool_camera_(T_tool_camera), pieces_(pieces), sweeps_(sweeps) {}
 
@@ -49,7 +49,7 @@ class OffsetProblem {
   std::vector<double> deviations(const std::map<std::size_t, double>& height) const;
   std::vector<Row> rows(const OffsetState& state, const std::vector<int>& face_of) const;
 
-  const SweepRecord& record_;
+  const SweepData& record_;
   const RigidTransform& T_tool_camera_;
   const std::vector<SweptPiece>& pieces_;
   std::size_t sweeps_;

@@ -8,7 +8,7 @@ namespace arcstart::calibration {
 namespace {
 
 // Plate to image, near one of its points: image = at + to_image * (plate - point).
-Eigen::Matrix3d homography(const Plate& plate, const std::vector<cv::Point2f>& centres) {
+Eigen::Matrix3d homography(const Target& plate, const std::vector<cv::Point2f>& centres) {
   std::vector<cv::Point2f> model;
   for (const Eigen::Vector3d& point : plate.points())
     model.push_back({static_cast<float>(point.x()), static_cast<float>(point.y())});
@@ -48,7 +48,7 @@ void for_pixels_about(const cv::Mat& grey, const Eigen::Vector2d& centre,
 
 }  // namespace
 
-std::vector<Eigen::Vector2d> refine_circle_centres(const cv::Mat& grey, const Plate& plate,
+std::vector<Eigen::Vector2d> refine_circle_centres(const cv::Mat& grey, const Target& plate,
                                                    const std::vector<Eigen::Vector2d>& centres) {
   constexpr int kSteps = 4;
   std::vector<cv::Point2f> coarse;
@@ -57,7 +57,7 @@ std::vector<Eigen::Vector2d> refine_circle_centres(const cv::Mat& grey, const Pl
   const Eigen::Matrix3d whole = homography(plate, coarse);
   const std::vector<Eigen::Vector3d> model = plate.points();
   const double nearest =
-      plate.pitch_mm * (plate.pattern == PlatePattern::asymmetric_circles ? std::sqrt(2.0) : 1);
+      plate.pitch_mm * (plate.pattern == TargetPattern::asymmetric_circles ? std::sqrt(2.0) : 1);
   std::vector<Eigen::Vector2d> result = centres;
   for (std::size_t i = 0; i < centres.size(); ++i) {
     const Eigen::Matrix2d to_image = derivative(whole, model[i]);
@@ -96,7 +96,7 @@ std::vector<Eigen::Vector2d> refine_circle_centres(const cv::Mat& grey, const Pl
   return result;
 }
 
-double brightness_around_origin(const cv::Mat& grey, const Plate& plate,
+double brightness_around_origin(const cv::Mat& grey, const Target& plate,
                                 const std::vector<cv::Point2f>& centres) {
   const Eigen::Matrix2d to_image = derivative(homography(plate, centres), Eigen::Vector3d::Zero());
   if (!(std::abs(to_image.determinant()) > 1e-6)) return 255;

@@ -16,7 +16,7 @@ using Matrix3 = Eigen::Matrix<T, 3, 3>;
 
 // Where the plate's points and directions lie in camera.
 template <class T>
-struct PlateInCamera {
+struct TargetInCamera {
   Matrix3<T> rotation;
   Vector3<T> position;  // mm
 };
@@ -24,7 +24,7 @@ struct PlateInCamera {
 // The centre of the ellipse as which a pinhole shows a circle of the plate, on z = 1: exact. The
 // circle's own centre where the radius is 0.
 template <class T>
-Vector2<T> ellipse_centre(const PlateInCamera<T>& plate, const Eigen::Vector3d& point,
+Vector2<T> ellipse_centre(const TargetInCamera<T>& plate, const Eigen::Vector3d& point,
                           double radius) {
   const Vector3<T> c = plate.rotation * point.cast<T>() + plate.position;
   const auto h1 = plate.rotation.col(0), h2 = plate.rotation.col(1);
@@ -66,7 +66,7 @@ T area_factor(const T* k, const Vector2<T>& point) {
 // too, by 0.04 px at the border of a usual image: the mean over its area by four points at the
 // places that make it exact to the third order. A corner, radius 0, is a point.
 template <class T>
-Vector2<T> seen_centre(const T* camera, const T* distortion, const PlateInCamera<T>& plate,
+Vector2<T> seen_centre(const T* camera, const T* distortion, const TargetInCamera<T>& plate,
                        const Eigen::Vector3d& point, double radius) {
   const Vector2<T> centre = ellipse_centre(plate, point, radius);
   if (radius == 0) return pixel(camera, distortion, centre);

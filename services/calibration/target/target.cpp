@@ -2,8 +2,8 @@
 
 namespace arcstart::calibration {
 
-std::vector<Eigen::Vector3d> Plate::points() const {
-  const bool staggered = pattern == PlatePattern::asymmetric_circles;
+std::vector<Eigen::Vector3d> Target::points() const {
+  const bool staggered = pattern == TargetPattern::asymmetric_circles;
   std::vector<Eigen::Vector3d> result;
   for (int row = 0; row < rows; ++row)
     for (int column = 0; column < columns; ++column)
@@ -11,13 +11,13 @@ std::vector<Eigen::Vector3d> Plate::points() const {
   return result;
 }
 
-double Plate::radius(int point) const {
+double Target::radius(int point) const {
   if (!has_circles()) return 0;
   return point == 0 && origin_dot_radius_mm > 0 ? origin_dot_radius_mm : radius_mm;
 }
 
-std::vector<std::vector<int>> Plate::lines() const {
-  const int step = pattern == PlatePattern::asymmetric_circles ? 2 : 1;
+std::vector<std::vector<int>> Target::lines() const {
+  const int step = pattern == TargetPattern::asymmetric_circles ? 2 : 1;
   std::vector<std::vector<int>> result;
   for (int row = 0; row < rows; ++row) {
     std::vector<int> line;
@@ -33,21 +33,21 @@ std::vector<std::vector<int>> Plate::lines() const {
   return result;
 }
 
-int Plate::symmetry() const {
+int Target::symmetry() const {
   switch (pattern) {
-    case PlatePattern::asymmetric_circles:
+    case TargetPattern::asymmetric_circles:
       return rows % 2 == 0 ? 2 : 1;  // with an odd number of rows a half turn is no other label
-    case PlatePattern::circles:
+    case TargetPattern::circles:
       if (origin_dot_radius_mm > 0) return 1;
       return rows == columns ? 4 : 2;
-    case PlatePattern::chessboard:
+    case TargetPattern::chessboard:
       if ((rows + columns) % 2 == 1) return 1;  // the first square's colour tells
       return rows == columns && rows % 2 == 0 ? 4 : 2;
   }
   return 1;
 }
 
-std::vector<int> turned_points(const Plate& plate, int turns) {
+std::vector<int> turned_points(const Target& plate, int turns) {
   const int columns = plate.columns, rows = plate.rows;
   const bool half = turns * (4 / plate.symmetry()) == 2;
   std::vector<int> result;

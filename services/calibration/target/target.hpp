@@ -7,18 +7,18 @@
 
 namespace arcstart::calibration {
 
-enum class PlatePattern { circles, asymmetric_circles, chessboard };
+enum class TargetPattern { circles, asymmetric_circles, chessboard };
 
 // Plate frame: origin in the first point, x along a row, y from row to row, z into the plate.
-struct Plate {
-  PlatePattern pattern = PlatePattern::circles;
+struct Target {
+  TargetPattern pattern = TargetPattern::circles;
   int columns = 0, rows = 0;        // points along a row, and rows; a chessboard's inner corners
   double pitch_mm = 0;              // OpenCV's square size: between rows; between columns too,
                                     // but for asymmetric circles, whose columns stand at twice that
   double radius_mm = 0;             // of the circles
   double origin_dot_radius_mm = 0;  // of the first circle where it is larger, else 0
 
-  bool has_circles() const { return pattern != PlatePattern::chessboard; }
+  bool has_circles() const { return pattern != TargetPattern::chessboard; }
   int size() const { return columns * rows; }
 
   // Row by row, in plate; mm.
@@ -36,6 +36,6 @@ struct Plate {
 
 // The points' numbers after turns of 360 / symmetry deg: what was seen as point i is point
 // result[i] of the turned plate.
-std::vector<int> turned_points(const Plate& plate, int turns);
+std::vector<int> turned_points(const Target& plate, int turns);
 
 }  // namespace arcstart::calibration

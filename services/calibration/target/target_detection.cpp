@@ -16,8 +16,8 @@ constexpr int kSearchWidth = 800;  // px; blobs are sought in a smaller image, m
 using Points = std::vector<cv::Point2f>;
 
 // The mean grey value within half a pitch's square between four neighbours of the grid.
-double square_brightness(const cv::Mat& grey, const Plate& plate, const Points& corners, int column,
-                         int row) {
+double square_brightness(const cv::Mat& grey, const Target& plate, const Points& corners,
+                         int column, int row) {
   cv::Point2f middle(0, 0);
   for (const int i : {0, 1, plate.columns, plate.columns + 1})
     middle += corners[row * plate.columns + column + i] * 0.25f;
@@ -31,7 +31,7 @@ double square_brightness(const cv::Mat& grey, const Plate& plate, const Points& 
 }
 
 // Whether the first inner square of a chessboard is darker than its neighbours.
-bool begins_dark(const cv::Mat& grey, const Plate& plate, const Points& corners) {
+bool begins_dark(const cv::Mat& grey, const Target& plate, const Points& corners) {
   double dark_first = 0;
   for (int row = 0; row + 1 < plate.rows; ++row)
     for (int column = 0; column + 1 < plate.columns; ++column)
@@ -40,7 +40,7 @@ bool begins_dark(const cv::Mat& grey, const Plate& plate, const Points& corners)
   return dark_first > 0;
 }
 
-Points find_chessboard(const cv::Mat& grey, const Plate& plate) {
+Points find_chessboard(const cv::Mat& grey, const Target& plate) {
   const cv::Size size(plate.columns, plate.rows);
   Points corners;
   if (!cv::findChessboardCorners(grey, size, corners,
@@ -58,7 +58,7 @@ Points find_chessboard(const cv::Mat& grey, const Plate& plate) {
   return corners;
 }
 
-Points find_circles(const cv::Mat& grey, const Plate& plate) {
+Points find_circles(const cv::Mat& grey, const Target& plate) {
   const double scale = std::min(1.0, double{kSearchWidth} / grey.cols);
   cv::Mat small;
   cv::resize(grey, small, {}, scale, scale, cv::INTER_AREA);
@@ -70,8 +70,8 @@ Points find_circles(const cv::Mat& grey, const Plate& plate) {
   blobs.maxThreshold = 230;
   blobs.thresholdStep = 15;
   const cv::Size size(plate.columns, plate.rows);
-  const int pattern = plate.pattern == PlatePattern::circles ? cv::CALIB_CB_SYMMETRIC_GRID
-                                                             : cv::CALIB_CB_ASYMMETRIC_GRID;
+  const int pattern = plate.pattern == TargetPattern::circles ? cv::CALIB_CB_SYMMETRIC_GRID
+                                                              : cv::CALIB_CB_ASYMMETRIC_GRID;
   Points centres;
   const auto detector = cv::SimpleBlobDetector::create(blobs);
   if (!cv::findCirclesGrid(small, size, centres, pattern, detector) &&
@@ -83,7 +83,7 @@ Points find_circles(const cv::Mat& grey, const Plate& plate) {
   return centres;
 }
 
-bool mirrored(const Plate& plate, const Points& points) {
+bool mirrored(const Target& plate, const Points& points) {
   const cv::Point2f along = points[plate.columns - 1] - points[0];
   const cv::Point2f down = points[(plate.rows - 1) * plate.columns] - points[0];
   return along.cross(down) < 0;
@@ -95,17 +95,17 @@ Points relabelled(const Points& points, const std::vector<int>& labels) {
   return result;
 }
 
-Plate with_symmetry(const Plate& plate) {
-  Plate plain = plate;
-  plain.pattern = PlatePattern::circles;
+Target with_symmetry(const Target& plate) {
+  Target plain = plate;
+  plain.pattern = TargetPattern::circles;
   plain.origin_dot_radius_mm = 0;
   return plain;
 }
 
 // The turn after which `badness` is least, of those that leave a plain grid as it is.
 template <class Badness>
-Points best_turn(const Plate& plate, const Points& points, const Badness& badness) {
-  const Plate plain = with_symmetry(plate);
+Points best_turn(const Target& plate, const Points& points, const Badness& badness) {
+  const Target plain = with_symmetry(plate);
   Points best = points;
   for (int turns = 1; turns < plain.symmetry(); ++turns)
     if (Points other = relabelled(points, turned_points(plain, turns));
@@ -116,18 +116,18 @@ Points best_turn(const Plate& plate, const Points& points, const Badness& badnes
 
 }  // namespace
 
-std::vector<Eigen::Vector2d> detect_target(const cv::Mat& grey, const Plate& plate) {
+std::vector<Eigen::Vector2d> detect_target(const cv::Mat& grey, const Target& plate) {
   Points points = plate.has_circles() ? find_circles(grey, plate) : find_chessboard(grey, plate);
   if (points.empty()) return {};
-  if (plate.pattern != PlatePattern::asymmetric_circles && mirrored(plate, points))
+  if (plate.pattern != TargetPattern::asymmetric_circles && mirrored(plate, points))
     for (int row = 0; row < plate.rows; ++row)
       std::reverse(points.begin() + row * plate.columns,
                    points.begin() + (row + 1) * plate.columns);
-  if (plate.pattern == PlatePattern::chessboard)
+  if (plate.pattern == TargetPattern::chessboard)
     points = best_turn(plate, points, [&](const Points& turned) {
       return begins_dark(grey, plate, turned) ? 0 : 1;
     });
-  else if (plate.pattern == PlatePattern::circles && plate.origin_dot_radius_mm > 0)
+  else if (plate.pattern == TargetPattern::circles && plate.origin_dot_radius_mm > 0)
     points = best_turn(plate, points, [&](const Points& turned) {
       return brightness_around_origin(grey, plate, turned);
     });

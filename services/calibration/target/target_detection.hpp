@@ -13,6 +13,6 @@ namespace arcstart::calibration {
 // right-handed with z away from the camera; none where the whole pattern is not found. A pattern
 // that looks the same after a turn may come turned. Circles: centre of the dark area, which is the
 // centre of the ellipse, not the image of the circle's centre.
-std::vector<Eigen::Vector2d> detect_target(const cv::Mat& grey, const Plate& plate);
+std::vector<Eigen::Vector2d> detect_target(const cv::Mat& grey, const Target& plate);
 
 }  // namespace arcstart::calibration

@@ -61,7 +61,7 @@ Seen look_at_all(const Options& options, const calibration::CalibrationSet& set,
     seen.size = grid.size();
     const cv::Mat laser =
         pose.laser == pose.grid ? grid : read_image(options, pose.laser, seen.size);
-    seen.views.push_back(calibration::look_at_pose(pose, set.plate, grid, laser));
+    seen.views.push_back(calibration::detect_view(pose, set.plate, grid, laser));
     if (options.without_laser) seen.views.back().stripe.clear();
   }
   const auto count = [&](const auto& condition) {

@@ -25,7 +25,7 @@ struct Options {
 
 void say(const std::string& text) { std::cerr << "check: " << text << "\n"; }
 
-nlohmann::ordered_json to_json(const calibration::ScanAgreement& found, const std::string& alarm,
+nlohmann::ordered_json to_json(const calibration::DriftCheck& found, const std::string& alarm,
                                const std::string& calibration_id, double limit_mm, bool ball) {
   nlohmann::ordered_json json = {
       {"calibration", calibration_id},
@@ -66,9 +66,9 @@ int run(const Options& options) {
                                     .limits.check_mm;
   const auto [sweeps, calibration] = read_judged_sweeps(options.sweeps, "check");
   const bool ball = options.sphere_radius_mm > 0;
-  const calibration::ScanAgreement found =
-      ball ? calibration::agreement_on_ball(sweeps.record, calibration, options.sphere_radius_mm)
-           : calibration::agreement_on_faces(sweeps.record, calibration);
+  const calibration::DriftCheck found =
+      ball ? calibration::check_on_ball(sweeps.record, calibration, options.sphere_radius_mm)
+           : calibration::check_on_faces(sweeps.record, calibration);
   const std::string alarm = found.refused.empty() ? calibration::drift(found, limit_mm) : "";
   if (options.json)
     std::cout << to_json(found, alarm, calibration.id, limit_mm, ball).dump(2) << "\n";

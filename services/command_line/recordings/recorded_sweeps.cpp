@@ -13,8 +13,8 @@
 namespace arcstart::command_line {
 namespace {
 
-calibration::SweptStripe swept_stripe(const stripe_t& message) {
-  calibration::SweptStripe stripe{message.utime, message.scan_id, {}};
+calibration::SweepProfile swept_stripe(const stripe_t& message) {
+  calibration::SweepProfile stripe{message.utime, message.scan_id, {}};
   std::optional<std::int16_t> last;
   for (std::size_t i = 0; i < message.u.size(); ++i) {
     if (message.rank[i] != stripe_t::CHOSEN) continue;

@@ -13,7 +13,7 @@ namespace arcstart::command_line {
 
 struct RecordedSweeps {
   std::string name, sensor, robot;
-  calibration::SweepRecord record;
+  calibration::SweepData record;
   std::optional<Calibration> calibration;  // the last of the recording that could be used
   std::vector<std::string> warnings;       // one line each
 };

@@ -50,7 +50,7 @@ Derivatives derivatives_at(const GreyImage& image, const GaussianKernels& kernel
 // One end of a branch.
 class End {
  public:
-  End(const GreyImage& image, const GaussianKernels& kernels, const Selection& selection,
+  End(const GreyImage& image, const GaussianKernels& kernels, const StripePath& selection,
       const std::vector<RidgePoint>& points, const Branch& branch, bool last)
       : image_(image),
         kernels_(kernels),
@@ -140,7 +140,7 @@ class End {
 
   const GreyImage& image_;
   const GaussianKernels& kernels_;
-  const Selection& selection_;
+  const StripePath& selection_;
   const std::vector<RidgePoint>& points_;
   const Branch& branch_;
   bool last_;
@@ -150,9 +150,9 @@ class End {
 
 }  // namespace
 
-void follow_ends(const GreyImage& image, const GaussianKernels& kernels, int border,
-                 Selection& selection, std::vector<RidgePoint>& points,
-                 std::vector<float>& deviations) {
+void follow_blunt_ends(const GreyImage& image, const GaussianKernels& kernels, int border,
+                       StripePath& selection, std::vector<RidgePoint>& points,
+                       std::vector<float>& deviations) {
   const int anew = static_cast<int>(kReach * kernels.sigma);
   for (Branch& branch : selection.branches) {
     if (!branch.chosen) continue;

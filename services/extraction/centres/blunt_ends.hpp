@@ -20,8 +20,8 @@ namespace arcstart::extraction {
 //
 // Adds to points, and for each point added, its standard deviation by that of the direction to
 // deviations; px.
-void follow_ends(const GreyImage& image, const GaussianKernels& kernels, int border,
-                 Selection& selection, std::vector<RidgePoint>& points,
-                 std::vector<float>& deviations);
+void follow_blunt_ends(const GreyImage& image, const GaussianKernels& kernels, int border,
+                       StripePath& selection, std::vector<RidgePoint>& points,
+                       std::vector<float>& deviations);
 
 }  // namespace arcstart::extraction

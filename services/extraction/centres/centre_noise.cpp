@@ -11,7 +11,7 @@ constexpr std::size_t kFewestSamples = 40;
 
 }  // namespace
 
-CentreScatter scatter_of(const std::vector<Branch>& branches,
+CentreNoise centre_noise(const std::vector<Branch>& branches,
                          const std::vector<MeasuredCentre>& centres, double sigma, Memory memory) {
   const auto lag = static_cast<std::ptrdiff_t>(std::max(3.0, std::ceil(2 * sigma)));
   struct Sample {
@@ -52,7 +52,7 @@ CentreScatter scatter_of(const std::vector<Branch>& branches,
   };
   const auto [strong_law, strong_square] = half(samples.begin(), middle);
   const auto [faint_law, faint_square] = half(middle, samples.end());
-  CentreScatter scatter;
+  CentreNoise scatter;
   scatter.variance = (strong_square + faint_square) / 2;
   scatter.per_law = (faint_square - strong_square) / (faint_law - strong_law);
   if (scatter.per_law < strong_square / strong_law) {

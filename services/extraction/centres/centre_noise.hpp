@@ -16,7 +16,7 @@ struct MeasuredCentre {
 };
 
 // A centre's variance: base + per_law x that of white noise.
-struct CentreScatter {
+struct CentreNoise {
   double base = 0;  // px^2
   double per_law = 1;
   double variance = 0;  // of the middle one of all; px^2
@@ -28,7 +28,7 @@ struct CentreScatter {
 // hang together by exp(-d^2 / (4 sigma^2)). Those of the stronger half and of the fainter half of
 // the centres tell both parts.
 // centres: of each point that the branches name. The law alone where too few are chosen.
-CentreScatter scatter_of(const std::vector<Branch>& branches,
+CentreNoise centre_noise(const std::vector<Branch>& branches,
                          const std::vector<MeasuredCentre>& centres, double sigma, Memory memory);
 
 }  // namespace arcstart::extraction

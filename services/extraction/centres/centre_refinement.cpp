@@ -7,9 +7,9 @@
 
 namespace arcstart::extraction {
 
-void take_finer(const std::vector<RidgePoint>& points, const Selection& selection, int reach,
-                double sigma, double noise, std::vector<RidgePoint>& measured,
-                std::vector<MeasuredCentre>& centres) {
+void refine_centres(const std::vector<RidgePoint>& points, const StripePath& selection, int reach,
+                    double sigma, double noise, std::vector<RidgePoint>& measured,
+                    std::vector<MeasuredCentre>& centres) {
   const auto line = [&](const RidgePoint& p) { return selection.along_rows ? p.row : p.column; };
   const auto across = [&](const RidgePoint& p) { return selection.along_rows ? p.u : p.v; };
   const auto before = [&](const RidgePoint& a, const RidgePoint& b) {

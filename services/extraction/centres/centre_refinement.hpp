@@ -12,8 +12,8 @@ namespace arcstart::extraction {
 // Replaces the centre of each chosen point by the nearest ridge point found at sigma in its column
 // (row), where one lies within reach; px. measured: those points, in any order; sorted. centres: of
 // each of `points`.
-void take_finer(const std::vector<RidgePoint>& points, const Selection& selection, int reach,
-                double sigma, double noise, std::vector<RidgePoint>& measured,
-                std::vector<MeasuredCentre>& centres);
+void refine_centres(const std::vector<RidgePoint>& points, const StripePath& selection, int reach,
+                    double sigma, double noise, std::vector<RidgePoint>& measured,
+                    std::vector<MeasuredCentre>& centres);
 
 }  // namespace arcstart::extraction

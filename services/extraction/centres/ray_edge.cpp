@@ -83,9 +83,9 @@ class Brightness {
   }
 
   // Where the light is half as bright as before, and gone soon after.
-  std::optional<LightEnd> end(int length_before) const {
+  std::optional<RayEdge> end(int length_before) const {
     if (!whole_) return std::nullopt;
-    LightEnd end;
+    RayEdge end;
     for (int pass = 0; pass < 2; ++pass) {
       const int before = static_cast<int>(std::floor(end.at)) - reach_;
       if (kPlateau - before > length_before) return std::nullopt;
@@ -127,8 +127,8 @@ class Brightness {
 
 }  // namespace
 
-std::optional<LightEnd> light_end(const GreyImage& image, const StripeRay& ray, double width,
-                                  int length_before) {
+std::optional<RayEdge> ray_edge(const GreyImage& image, const StripeRay& ray, double width,
+                                int length_before) {
   return Brightness(image, ray, width).end(length_before);
 }
 

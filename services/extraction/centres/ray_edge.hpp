@@ -13,7 +13,7 @@ struct StripeRay {
   double du, dv;  // unit, outwards
 };
 
-struct LightEnd {
+struct RayEdge {
   double at = 0;   // px along the ray
   int fading = 0;  // px over which the light goes from three quarters to one
 };
@@ -23,7 +23,7 @@ struct LightEnd {
 // that cannot be told, or lies farther than six widths away. width: standard deviation of the
 // stripe's profile, kLargestWidth at most. length_before: of the stripe; px.
 constexpr double kLeastWidth = 0.8, kLargestWidth = 12;  // px
-std::optional<LightEnd> light_end(const GreyImage& image, const StripeRay& ray, double width,
-                                  int length_before);
+std::optional<RayEdge> ray_edge(const GreyImage& image, const StripeRay& ray, double width,
+                                int length_before);
 
 }  // namespace arcstart::extraction

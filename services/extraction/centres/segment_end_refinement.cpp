@@ -108,7 +108,7 @@ std::optional<MovedEnd> moved_end(const GreyImage& image, const std::vector<Stri
   std::optional<MovedEnd> moved;
   for (const double skipped : kSkipped) {
     const auto ray = segment.ray(static_cast<int>(std::lround(skipped * width)), width);
-    const auto end = ray ? light_end(image, *ray, width, segment.size()) : std::nullopt;
+    const auto end = ray ? ray_edge(image, *ray, width, segment.size()) : std::nullopt;
     if (!end) continue;
     moved = MovedEnd{static_cast<float>(ray->u + end->at * ray->du),
                      static_cast<float>(ray->v + end->at * ray->dv), 0};
@@ -123,7 +123,7 @@ std::optional<MovedEnd> moved_end(const GreyImage& image, const std::vector<Stri
 
 }  // namespace
 
-void end_at_light(const GreyImage& image, std::vector<StripeCentre>& centres) {
+void refine_segment_ends(const GreyImage& image, std::vector<StripeCentre>& centres) {
   for (std::size_t begin = 0, end; begin < centres.size(); begin = end) {
     for (end = begin; end < centres.size() && centres[end].segment == centres[begin].segment;)
       ++end;

@@ -18,6 +18,6 @@ namespace arcstart::extraction {
 // dropped. Brightness is the bend across the stripe, which no even background changes. An end stays
 // as found where that place cannot be told: the segment is short, its top white, another stripe is
 // near, or the light does not stop.
-void end_at_light(const GreyImage& image, std::vector<StripeCentre>& centres);
+void refine_segment_ends(const GreyImage& image, std::vector<StripeCentre>& centres);
 
 }  // namespace arcstart::extraction

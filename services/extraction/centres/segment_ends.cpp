@@ -54,7 +54,7 @@ bool in_line(const End& from, const End& to) {
 }  // namespace
 
 BranchEnds branch_ends(const GreyImage& image, const std::vector<RidgePoint>& points,
-                       const Selection& selection, std::size_t index, double sigma, int margin) {
+                       const StripePath& selection, std::size_t index, double sigma, int margin) {
   const Branch& branch = selection.branches[index];
   const auto reason = [&](bool last) {
     const End end = end_of(points, branch, last);

@@ -23,6 +23,6 @@ struct BranchEnds {
   SegmentEnd first, last;
 };
 BranchEnds branch_ends(const GreyImage& image, const std::vector<RidgePoint>& points,
-                       const Selection& selection, std::size_t index, double sigma, int margin);
+                       const StripePath& selection, std::size_t index, double sigma, int margin);
 
 }  // namespace arcstart::extraction

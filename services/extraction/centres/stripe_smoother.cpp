@@ -17,19 +17,19 @@ constexpr double kPointsForOne = 2.5;
 
 }  // namespace
 
-std::size_t BranchCourse::station_of(const CoursePoint& point) const {
+std::size_t StripeSmoother::station_of(const SmoothedPoint& point) const {
   const long at = std::lround(point.along - origin_along_);
   return static_cast<std::size_t>(std::clamp(at, 0L, static_cast<long>(stations_.size()) - 1));
 }
 
-double BranchCourse::slope_at(std::size_t at) const {
+double StripeSmoother::slope_at(std::size_t at) const {
   const std::size_t before = at > 0 ? at - 1 : 0, after = std::min(at + 1, stations_.size() - 1);
   return (stations_[after].line - stations_[before].line) / static_cast<double>(after - before);
 }
 
 // The centres, moved along the line found so far to the whole px.
-void BranchCourse::observe(const std::vector<CoursePoint>& points) {
-  for (const CoursePoint& point : points) {
+void StripeSmoother::observe(const std::vector<SmoothedPoint>& points) {
+  for (const SmoothedPoint& point : points) {
     if (point.at_border) continue;
     const std::size_t at = station_of(point);
     const double slope = slope_at(at);
@@ -42,7 +42,7 @@ void BranchCourse::observe(const std::vector<CoursePoint>& points) {
 }
 
 // Normal equations of both sums, the right side in line.
-void BranchCourse::set_up() {
+void StripeSmoother::set_up() {
   const std::size_t last = stations_.size() - 1;
   for (Station& s : stations_) s.diagonal = s.next = s.after_next = s.line = 0;
   for (const std::size_t end : {std::size_t{0}, last}) {
@@ -68,7 +68,7 @@ void BranchCourse::set_up() {
 }
 
 // L D L^T, in place. False: the centres leave the line open.
-bool BranchCourse::solve() {
+bool StripeSmoother::solve() {
   const std::size_t size = stations_.size();
   for (std::size_t k = 0; k < size; ++k) {
     Station& here = stations_[k];
@@ -96,7 +96,7 @@ bool BranchCourse::solve() {
 }
 
 // The weight of y''^2 that has the Cauchy density's slope at the bends found.
-void BranchCourse::stiffen(int reach) {
+void StripeSmoother::stiffen(int reach) {
   const int last = static_cast<int>(stations_.size()) - 1;
   squares_.assign(stations_.size() + 1, 0);
   for (int k = 1; k <= last; ++k) {
@@ -112,7 +112,7 @@ void BranchCourse::stiffen(int reach) {
 }
 
 // Diagonal of the inverse, from the factors backwards (Takahashi).
-void BranchCourse::find_deviations() {
+void StripeSmoother::find_deviations() {
   double z11 = 0, z12 = 0, z22 = 0;  // of the next two stations
   for (std::size_t k = stations_.size(); k-- > 0;) {
     Station& here = stations_[k];
@@ -126,11 +126,11 @@ void BranchCourse::find_deviations() {
   }
 }
 
-void BranchCourse::smooth(std::vector<CoursePoint>& points) {
+void StripeSmoother::smooth(std::vector<SmoothedPoint>& points) {
   const auto fitted = std::count_if(points.begin(), points.end(),
-                                    [](const CoursePoint& point) { return !point.at_border; });
+                                    [](const SmoothedPoint& point) { return !point.at_border; });
   const auto give_up = [&] {
-    for (CoursePoint& point : points)
+    for (SmoothedPoint& point : points)
       if (point.at_border) point.deviation = 0;
   };
   if (fitted < kFewestPoints) return give_up();
@@ -146,7 +146,7 @@ void BranchCourse::smooth(std::vector<CoursePoint>& points) {
     if (!solve()) return give_up();
   }
   find_deviations();
-  for (CoursePoint& point : points) {
+  for (SmoothedPoint& point : points) {
     const std::size_t at = station_of(point);
     const double ahead = point.along - origin_along_ - static_cast<double>(at);
     point.across = origin_across_ + stations_[at].line + slope_at(at) * ahead;

@@ -6,7 +6,7 @@
 
 namespace arcstart::extraction {
 
-struct CoursePoint {
+struct SmoothedPoint {
   double along, across;  // px, along and across the image's main direction of the stripe
   double deviation;      // standard deviation of the centre as found; px
   double sigma;          // of the kernels that found it; px
@@ -25,12 +25,12 @@ struct CoursePoint {
 // no point is.
 //
 // It is found by reweighting: each round solves a system of five diagonals.
-class BranchCourse {
+class StripeSmoother {
  public:
   // points by their place along, at most one a column (row). Replaces across and deviation;
   // deviation 0: the point lies at the border, and where it truly is the others do not tell. A
   // short branch's others are left alone.
-  void smooth(std::vector<CoursePoint>& points);
+  void smooth(std::vector<SmoothedPoint>& points);
 
  private:
   struct Station {
@@ -42,9 +42,9 @@ class BranchCourse {
     // The system's three upper diagonals, then its factors: 1 / D and L of L D L^T.
     double diagonal = 0, next = 0, after_next = 0;
   };
-  std::size_t station_of(const CoursePoint& point) const;
+  std::size_t station_of(const SmoothedPoint& point) const;
   double slope_at(std::size_t at) const;
-  void observe(const std::vector<CoursePoint>& points);
+  void observe(const std::vector<SmoothedPoint>& points);
   void set_up();
   bool solve();
   void stiffen(int reach);

@@ -5,7 +5,7 @@
 
 namespace arcstart::extraction {
 
-void* FrameMemory::do_allocate(std::size_t bytes, std::size_t alignment) {
+void* FrameArena::do_allocate(std::size_t bytes, std::size_t alignment) {
   constexpr std::size_t kLeast = 1 << 16;
   if (!blocks_.empty()) {
     std::vector<std::byte>& block = blocks_.back();
@@ -22,7 +22,7 @@ void* FrameMemory::do_allocate(std::size_t bytes, std::size_t alignment) {
   return do_allocate(bytes, alignment);
 }
 
-void FrameMemory::take_back() {
+void FrameArena::take_back() {
   used_ = 0;
   if (blocks_.size() <= 1) return;
   std::size_t all = 0;

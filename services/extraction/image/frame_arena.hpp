@@ -16,7 +16,7 @@ template <class Value>
 using FrameVector = std::pmr::vector<Value>;
 
 // Takes memory from the heap only while images need more than all before them.
-class FrameMemory : public std::pmr::memory_resource {
+class FrameArena : public std::pmr::memory_resource {
  public:
   // Nothing that was handed out may be touched any more.
   void take_back();

@@ -90,12 +90,12 @@ class PointGrid {
 
 }  // namespace
 
-FrameVector<Meeting> find_meetings(const std::vector<RidgePoint>& points,
-                                   const std::vector<Chain>& chains,
-                                   const FrameVector<ChainPlace>& places, double reach,
-                                   Memory memory) {
+FrameVector<ChainContact> find_contacts(const std::vector<RidgePoint>& points,
+                                        const std::vector<Chain>& chains,
+                                        const FrameVector<ChainPlace>& places, double reach,
+                                        Memory memory) {
   const PointGrid grid(points, chains, memory);
-  FrameVector<Meeting> meetings(memory);
+  FrameVector<ChainContact> meetings(memory);
   FrameVector<int> nearest(chains.size(), -1, memory);     // point of each chain
   FrameVector<float> lowest(chains.size(), 0.0f, memory);  // its distance from the end
   FrameVector<int> met(memory);                            // chains

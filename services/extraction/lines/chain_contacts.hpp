@@ -14,16 +14,16 @@ struct ChainPlace {
 };
 
 // An end of one chain lies at a point of another.
-struct Meeting {
+struct ChainContact {
   int end, point;
 };
 
 // For each end in order, a meeting with each other chain, in order, that has a point within reach
 // (px) of it, or of the way straight on for four times as far: with the point nearest to the end,
 // the first of those equally near. places: of each point.
-FrameVector<Meeting> find_meetings(const std::vector<RidgePoint>& points,
-                                   const std::vector<Chain>& chains,
-                                   const FrameVector<ChainPlace>& places, double reach,
-                                   Memory memory);
+FrameVector<ChainContact> find_contacts(const std::vector<RidgePoint>& points,
+                                        const std::vector<Chain>& chains,
+                                        const FrameVector<ChainPlace>& places, double reach,
+                                        Memory memory);
 
 }  // namespace arcstart::extraction

@@ -36,8 +36,9 @@ class Junctions {
 };
 
 // Ends that meet share a junction, also by way of others. first_strand: of each chain, and the end.
-void name_junctions(const FrameVector<ChainPlace>& places, const FrameVector<Meeting>& meetings,
-                    const FrameVector<int>& first_strand, int near, FrameVector<Strand>& strands) {
+void name_junctions(const FrameVector<ChainPlace>& places,
+                    const FrameVector<ChainContact>& meetings, const FrameVector<int>& first_strand,
+                    int near, FrameVector<Strand>& strands) {
   const Memory memory = strands.get_allocator().resource();
   Junctions junctions(strands.size(), memory);
   FrameVector<int> ends(memory);
@@ -57,7 +58,7 @@ void name_junctions(const FrameVector<ChainPlace>& places, const FrameVector<Mee
       for (const int side : {0, 1})
         if (std::abs(position(s, side) - place.position) <= reach) ends.push_back(2 * s + side);
   };
-  for (const Meeting& meeting : meetings) {
+  for (const ChainContact& meeting : meetings) {
     const ChainPlace &end = places[meeting.end], &met = places[meeting.point];
     ends.clear();
     if (end.chain < met.chain) add_ends(end, 0);
@@ -108,9 +109,9 @@ FrameVector<Strand> cut_at_junctions(const std::vector<RidgePoint>& points,
   FrameVector<ChainPlace> places(points.size(), memory);
   for (int c = 0; c < static_cast<int>(chains.size()); ++c)
     for (int i = 0; i < static_cast<int>(chains[c].size()); ++i) places[chains[c][i]] = {c, i};
-  const FrameVector<Meeting> meetings = find_meetings(points, chains, places, reach, memory);
+  const FrameVector<ChainContact> meetings = find_contacts(points, chains, places, reach, memory);
   FrameVector<FrameVector<int>> cuts(chains.size(), memory);
-  for (const Meeting& meeting : meetings)
+  for (const ChainContact& meeting : meetings)
     cuts[places[meeting.point].chain].push_back(places[meeting.point].position);
 
   FrameVector<Strand> strands(memory);

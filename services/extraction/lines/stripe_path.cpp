@@ -104,8 +104,8 @@ FrameVector<int> Selector::rest_of_strand(int candidate, int step, int reach) co
   return rest;
 }
 
-void Selector::split_path(const FrameVector<int>& path, const SelectionSettings& settings,
-                          Selection& selection) {
+void Selector::split_path(const FrameVector<int>& path, const StripePathSettings& settings,
+                          StripePath& selection) {
   const int reach = static_cast<int>(settings.junction_reach);
   chosen_.assign(candidates_.lines(), -1);
   for (std::size_t begin = 0; begin < path.size();) {
@@ -135,7 +135,7 @@ void Selector::split_path(const FrameVector<int>& path, const SelectionSettings&
   }
 }
 
-void Selector::add_second_candidates(const SelectionSettings& settings, Selection& selection) {
+void Selector::add_second_candidates(const StripePathSettings& settings, StripePath& selection) {
   FrameVector<std::pair<int, int>> seconds(memory_);  // strand, candidate
   for (std::size_t line = 0; line + 1 < candidates_.line_begin.size(); ++line)
     for (int i = candidates_.line_begin[line]; i < candidates_.line_begin[line + 1]; ++i) {
@@ -164,8 +164,8 @@ void Selector::add_second_candidates(const SelectionSettings& settings, Selectio
 }
 
 void Selector::select(const std::vector<RidgePoint>& points, const std::vector<Chain>& chains,
-                      const std::vector<float>& widths, const SelectionSettings& settings,
-                      Selection& selection, Memory memory) {
+                      const std::vector<float>& widths, const StripePathSettings& settings,
+                      StripePath& selection, Memory memory) {
   memory_ = memory;
   selection.branches.clear();
   double across_image = 0;  // of the tangents, weighted with the curvature: > 0 where they run

@@ -19,7 +19,7 @@ struct Branch {
       true;  // else a second candidate: a reflection, or something else that looks like a stripe
 };
 
-struct Selection {
+struct StripePath {
   bool along_rows =
       false;  // one centre a row: the stripe runs down the image rather than across it
   std::vector<Branch>
@@ -27,7 +27,7 @@ struct Selection {
                  // but for their last few where one surface hides another
 };
 
-struct SelectionSettings {
+struct StripePathSettings {
   int longest_hole = 5;                   // columns without a centre that do not yet end a branch
   int fewest_points = 10;                 // of a branch
   int width = 0, height = 0, margin = 0;  // of the image, and of its border without points; px
@@ -50,8 +50,8 @@ class Selector {
   // nothing, even where the stronger one has a gap. Nothing is put in where there is no point. The
   // branches lie in the memory given.
   void select(const std::vector<RidgePoint>& points, const std::vector<Chain>& chains,
-              const std::vector<float>& widths, const SelectionSettings& settings,
-              Selection& selection, Memory memory = heap());
+              const std::vector<float>& widths, const StripePathSettings& settings,
+              StripePath& selection, Memory memory = heap());
 
  private:
   FrameVector<int> best_path() const;
@@ -61,9 +61,9 @@ class Selector {
   // The candidates of the same strand behind (step 1) or before (-1) this one, one a column, from
   // it outward; none where the strand goes on for more than `reach` columns.
   FrameVector<int> rest_of_strand(int candidate, int step, int reach) const;
-  void split_path(const FrameVector<int>& path, const SelectionSettings& settings,
-                  Selection& selection);
-  void add_second_candidates(const SelectionSettings& settings, Selection& selection);
+  void split_path(const FrameVector<int>& path, const StripePathSettings& settings,
+                  StripePath& selection);
+  void add_second_candidates(const StripePathSettings& settings, StripePath& selection);
 
   Memory memory_ = heap();
   float break_cost_ = 0;  // columns of clean stripe

@@ -61,9 +61,10 @@ ARCSTART_INLINE_BODY void test_bends_body(const BendTest& test) {
   std::uint16_t* __restrict passes = test.passes;
   for (int i = 0; i < count; ++i) {
     const int a = near.highest[i] + near.lowest_lacks[i];
-    const std::uint16_t bends = static_cast<float>(Bend::kUnit) * static_cast<float>(bend[i]) +
-                                    near.share * static_cast<float>(a) >=
-                                least;
+    const std::uint16_t bends =
+        static_cast<float>(SecondDifferences::kUnit) * static_cast<float>(bend[i]) +
+            near.share * static_cast<float>(a) >=
+        least;
     passes[i] = passes[i] & bends;
   }
 }
@@ -82,7 +83,7 @@ void BlockRejection::mark(const GreyImage& image, const GaussianKernels& kernels
                           double least_curvature, ThreadPool& pool) {
   if (kernels.sigma != bound_sigma_) {
     bound_ = curvature_bound(kernels);
-    bend_bound_ = bend_bound(kernels, kHeight * cells(3 * kernels.half_width / 4, kHeight));
+    bend_bound_ = hessian_bound(kernels, kHeight * cells(3 * kernels.half_width / 4, kHeight));
     bound_sigma_ = kernels.sigma;
   }
   columns_ = cells(image.width, kWidth);
@@ -148,7 +149,7 @@ void BlockRejection::leave_out_by_bend(double least_curvature, Band& band) const
   for (int row = 0; row < band.cells.rows(); ++row)
     test_bends({band.highest_bend.row(row),
                 {band.near, row, bend_bound_.per_grey},
-                static_cast<float>(least_curvature - bend_bound_.far - Bend::kShort),
+                static_cast<float>(least_curvature - bend_bound_.far - SecondDifferences::kShort),
                 band.cells.columns(),
                 band.cells.row(row)});
 }

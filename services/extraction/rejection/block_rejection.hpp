@@ -33,7 +33,7 @@ class BlockRejection {
   // the second-level cache.
   struct Band {
     SmoothedGrid grid;
-    Bend bend;
+    SecondDifferences bend;
     CellRanges smoothed, plain, near;  // of each cell and those in reach of it
     CellPlane highest_bend;            // likewise
     CellPlane cells, asked;            // 1: may hold such a pixel; its bend is asked for
@@ -47,7 +47,7 @@ class BlockRejection {
   int columns_ = 0, rows_ = 0;
   double bound_sigma_ = 0;
   CurvatureBound bound_{};
-  BendBound bend_bound_{};
+  HessianBound bend_bound_{};
   std::vector<Band> bands_;           // of each thread
   std::vector<std::uint8_t> active_;  // of each block
 };

@@ -93,12 +93,12 @@ Rest rest_of(const Axis& u, const Axis& v, double angle, int rest_reach) {
 
 }  // namespace
 
-BendBound bend_bound(const GaussianKernels& kernels, int rest_reach) {
+HessianBound hessian_bound(const GaussianKernels& kernels, int rest_reach) {
   const double variance = kernels.sigma * kernels.sigma + kPixel - kVariance;
   if (variance < 1.5) return {};
   constexpr int kSpread = 6;  // of the binomial and the second differences, px
   const int room = kernels.half_width + kSpread;
-  BendBound bound;
+  HessianBound bound;
   bound.holds = true;
   bound.rest_reach = std::min(rest_reach, room);
   const std::array<Axis, 2> places{Axis(kernels, variance, room, false),

@@ -16,7 +16,7 @@ namespace arcstart::extraction {
 //     -K image <= max over H of (max(-xx, -yy) + |xy|) + 1/2 |N|_1 range(image) + 255/2 |E - N|_1,
 // the range being that of the grey values under N, which is E within a few px, its sum made nought
 // as E's is.
-struct BendBound {
+struct HessianBound {
   bool holds = false;   // the kernels smooth enough for it
   int reach = 0;        // half-width of H, px
   int rest_reach = 0;   // half-width of N, px
@@ -24,6 +24,6 @@ struct BendBound {
   double far = 0;       // 255/2 |E - N|_1, likewise; grey values / px^2
 };
 // rest_reach: wanted.
-BendBound bend_bound(const GaussianKernels& kernels, int rest_reach);
+HessianBound hessian_bound(const GaussianKernels& kernels, int rest_reach);
 
 }  // namespace arcstart::extraction

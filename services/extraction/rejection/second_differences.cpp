@@ -19,7 +19,7 @@ struct Grid {
   std::ptrdiff_t highest_stride;
 };
 
-// Down to rows 2 above and 2 below; x eight times what bend_bound.hpp says, of eighths.
+// Down to rows 2 above and 2 below; x eight times what hessian_bound.hpp says, of eighths.
 template <int kFloats>
 ARCSTART_INLINE_BODY void bend_at(const Grid& grid, int x) {
   using Values = typename Register<kFloats>::SignedWords;
@@ -59,7 +59,7 @@ ARCSTART_FOR_EACH_INSTRUCTION_SET(measure_bend, (const Grid& grid), (grid))
 
 }  // namespace
 
-void Bend::measure(const SmoothedGrid& grid, const CellPlane& asked) {
+void SecondDifferences::measure(const SmoothedGrid& grid, const CellPlane& asked) {
   highest_.resize(grid.cell_columns(), grid.cell_rows() * kRows);
   for (int row = 1; row + 1 < grid.cell_rows(); ++row) {
     const int y = row * kRows;

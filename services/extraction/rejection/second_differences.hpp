@@ -6,8 +6,8 @@
 
 namespace arcstart::extraction {
 
-// Of max(-xx, -yy) + |xy| of bend_bound.hpp, in each four columns of each row of the grid.
-class Bend {
+// Of max(-xx, -yy) + |xy| of hessian_bound.hpp, in each four columns of each row of the grid.
+class SecondDifferences {
  public:
   static constexpr double kUnit = 1.0 / 576;  // grey values / px^2
   // By which whole numbers fall short at most: xx and yy take 6 values too many and 6 too few of

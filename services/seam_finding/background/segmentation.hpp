@@ -13,10 +13,11 @@ struct Segmentation {
   std::vector<int> background, workpiece;
   int size() const { return static_cast<int>(background.size() + workpiece.size()); }
 };
-// Goes on behind the last point that is divided already: a scan can be divided stripe by stripe.
+// Goes on behind the last point that is segmented already: a scan can be segmented stripe by
+// stripe.
 void segment(const ScanCloud& scan, const Background& background, Segmentation& segmentation);
 
-// The same of the thinned points, by their own places.
+// The same of the downsampled points, by their own places.
 Segmentation segmentation_of(const DownsampledCloud& downsampled, const Segmentation& whole);
 
 }  // namespace arcstart::seam_finding

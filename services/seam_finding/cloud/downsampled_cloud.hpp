@@ -20,12 +20,12 @@ struct DownsampledCloud {
 };
 
 // Of each segment its two ends, what the profile marks as ends, and between them points no nearer
-// to each other than 1.5 mm. Goes on behind the last stripe that is thinned already: a scan can be
-// thinned stripe by stripe. Nothing of a cloud without stripes.
+// to each other than 1.5 mm. Goes on behind the last stripe that is downsampled already: a scan can
+// be downsampled stripe by stripe. Nothing of a cloud without stripes.
 void downsample(const ScanCloud& scan, DownsampledCloud& downsampled);
 
-// Of a face found among the thinned points the whole scan's: those points, and between and beside
-// them what lies on the plane. Rising.
+// Of a face found among the downsampled points the whole scan's: those points, and between and
+// beside them what lies on the plane. Rising.
 std::vector<int> upsampled(const ScanCloud& scan, const DownsampledCloud& downsampled,
                            const std::vector<int>& points, const Plane& plane, double tolerance_mm);
 

@@ -88,7 +88,7 @@ class EndFinder {
         settings_(settings) {}
 
   // About a place between two stripes. Where `reach` is given no stripe shows the seam between the
-  // course and that place, up to which both plates are there.
+  // coverage and that place, up to which both plates are there.
   SeamEnd find(double along, std::optional<double> reach = std::nullopt) {
     extents_ = {};
     for (int j = 0; j < 2; ++j) {

@@ -59,8 +59,8 @@ class StoredBackground {
 // for the surface is known from those beside them: no more than one in twenty, no two in a row.
 ScanRefusal background_error(const CollectedScan& scan);
 
-// A workpiece scan before the seam is sought: its cloud, thinned, and divided where there is a
-// background.
+// A workpiece scan before the seam is sought: its cloud, downsampled, and segmented where there is
+// a background.
 struct PreparedScan {
   ScanCloud cloud;
   Segmentation segmentation;

@@ -39,10 +39,10 @@ struct Sums {
 };
 
 // calibrateCamera with the circles taken as points, Park, a plane through the stripes' points.
-double opencv_end_to_end(Plate plate, std::vector<View> views, const TrueSensor& sensor,
+double opencv_end_to_end(Target plate, std::vector<View> views, const TrueSensor& sensor,
                          const std::vector<ProbePoint>& probes) {
   plate.radius_mm = 0;
-  const CameraStage camera = calibrate_camera(plate, views, sensor.width, sensor.height);
+  const IntrinsicsStage camera = calibrate_camera(plate, views, sensor.width, sensor.height);
   SensorModel model = camera.model;
   std::vector<RigidTransform> tools;
   std::vector<Eigen::Vector3d> laser;
@@ -59,7 +59,7 @@ double opencv_end_to_end(Plate plate, std::vector<View> views, const TrueSensor&
 
 // The laser plane with the true camera: RMS of how far the probe points lie from where it puts
 // them.
-double plane_error(const Plate& plate, const std::vector<View>& views, const TrueSensor& sensor,
+double plane_error(const Target& plate, const std::vector<View>& views, const TrueSensor& sensor,
                    const std::vector<ProbePoint>& probes) {
   SensorModel model;
   model.width = sensor.width;
@@ -79,7 +79,7 @@ double plane_error(const Plate& plate, const std::vector<View>& views, const Tru
   return end_to_end(model, sensor.T_tool_camera, probes);
 }
 
-void run_seed(const Plate& plate, const std::vector<View>& true_views, const TrueSensor& sensor,
+void run_seed(const Target& plate, const std::vector<View>& true_views, const TrueSensor& sensor,
               std::uint64_t seed, const std::string& row, const RobotError& robot, Sums& sums) {
   const auto probes = probe_points(sensor);
   std::vector<View> views = true_views;

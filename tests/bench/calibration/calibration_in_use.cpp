@@ -34,7 +34,7 @@ SimulatedSweepsSettings sweeps_settings() {
 
 // By sweeps of this seed, with a calibration that knows of no offset.
 calibration::TimeOffset found_offset(Calibration calibration, std::uint64_t seed) {
-  calibration::SweepRecord record;
+  calibration::SweepData record;
   append_sweeps(record, sweeps_settings(), seed);
   calibration.time_offset = 0;
   return calibration::find_time_offset(record, calibration);

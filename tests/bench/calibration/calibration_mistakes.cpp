@@ -21,9 +21,9 @@ calibration::View rendered_view(PlateImages& images, const PrintedPlate& printed
   auto grid = images.grid(T_camera_plate, seed, glare);
   auto laser = images.laser(T_camera_plate, seed);
   const int width = images.sensor().width, height = images.sensor().height;
-  return calibration::look_at_pose({view.index, "", "", view.T_base_tool}, plate_of(printed),
-                                   cv::Mat(height, width, CV_8U, grid.data()),
-                                   cv::Mat(height, width, CV_8U, laser.data()));
+  return calibration::detect_view({view.index, "", "", view.T_base_tool}, plate_of(printed),
+                                  cv::Mat(height, width, CV_8U, grid.data()),
+                                  cv::Mat(height, width, CV_8U, laser.data()));
 }
 
 }  // namespace

@@ -23,10 +23,10 @@ Eigen::Matrix3d turn(double degrees, const Eigen::Vector3d& axis) {
 
 }  // namespace
 
-calibration::Plate plate_of(const cell_simulator::PrintedPlate& printed) {
-  calibration::Plate plate;
-  plate.pattern = printed.staggered ? calibration::PlatePattern::asymmetric_circles
-                                    : calibration::PlatePattern::circles;
+calibration::Target plate_of(const cell_simulator::PrintedPlate& printed) {
+  calibration::Target plate;
+  plate.pattern = printed.staggered ? calibration::TargetPattern::asymmetric_circles
+                                    : calibration::TargetPattern::circles;
   plate.columns = printed.columns;
   plate.rows = printed.rows;
   plate.pitch_mm = printed.pitch_mm;
@@ -97,7 +97,7 @@ std::vector<calibration::View> rendered_views(cell_simulator::PlateImages& image
     calibration::CalibrationPose pose;
     pose.index = static_cast<int>(i) + 1;
     pose.T_base_tool = tool_pose(sensor, T_camera_plate[i]);
-    views.push_back(calibration::look_at_pose(
+    views.push_back(calibration::detect_view(
         pose, plate_of(plate), cv::Mat(sensor.height, sensor.width, CV_8U, grid.data()),
         cv::Mat(sensor.height, sensor.width, CV_8U, laser.data())));
   }

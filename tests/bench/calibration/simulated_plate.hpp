@@ -22,7 +22,7 @@ struct PoseRange {
   double nearest = 0.8, farthest = 1.2;
 };
 
-calibration::Plate plate_of(const cell_simulator::PrintedPlate& printed);
+calibration::Target plate_of(const cell_simulator::PrintedPlate& printed);
 
 // T_camera_plate of poses that show all dots and a stripe, drawn anew until they do.
 std::vector<RigidTransform> draw_poses(const cell_simulator::PlateImages& images,

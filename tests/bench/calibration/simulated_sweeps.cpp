@@ -26,7 +26,7 @@ std::vector<std::vector<Eigen::Vector2d>> segments_of(const extraction::Stripe& 
 
 }  // namespace
 
-void append_sweeps(calibration::SweepRecord& record, const SimulatedSweepsSettings& settings,
+void append_sweeps(calibration::SweepData& record, const SimulatedSweepsSettings& settings,
                    std::uint64_t seed) {
   const cell_simulator::Scene scene =
       cell_simulator::make_scene(settings.scene, settings.kind, seed);

@@ -28,7 +28,7 @@ struct SimulatedSweepsSettings {
 };
 
 // One scan of to and fro, appended to the record a minute after what stands in it.
-void append_sweeps(calibration::SweepRecord& record, const SimulatedSweepsSettings& settings,
+void append_sweeps(calibration::SweepData& record, const SimulatedSweepsSettings& settings,
                    std::uint64_t seed);
 
 // The sensor as it is, the offset as it should be found.

@@ -54,7 +54,7 @@ TEST_CASE("a sound folder is read, poses by index") {
   const SetFolder folder;
   const CalibrationSet set = read_calibration_set(folder.root.string());
   REQUIRE(set.poses.size() == 3);
-  CHECK(set.plate.pattern == PlatePattern::asymmetric_circles);
+  CHECK(set.plate.pattern == TargetPattern::asymmetric_circles);
   CHECK(set.plate.points()[5] == Eigen::Vector3d(12, 12, 0));
   CHECK(set.poses[1].index == 2);
   CHECK_THAT(set.poses[1].laser, Contains("laser/0002.png"));

@@ -119,9 +119,9 @@ TEST_CASE("an image under glare is named and left out") {
   auto grid = set.images.grid(set.poses[glared], 1, {middle, 22});
   auto laser = set.images.laser(set.poses[glared], 1);
   const int width = set.images.sensor().width, height = set.images.sensor().height;
-  set.views[glared] = look_at_pose({set.views[glared].index, "", "", set.views[glared].T_base_tool},
-                                   set.plate(), cv::Mat(height, width, CV_8U, grid.data()),
-                                   cv::Mat(height, width, CV_8U, laser.data()));
+  set.views[glared] = detect_view({set.views[glared].index, "", "", set.views[glared].T_base_tool},
+                                  set.plate(), cv::Mat(height, width, CV_8U, grid.data()),
+                                  cv::Mat(height, width, CV_8U, laser.data()));
   const CalibrationRun run = calibrated(set, set.said(0.1, 0.01));
   CHECK(run.left_out.size() == 1);
   CHECK(names(run, static_cast<int>(glared) + 1, "glare"));
@@ -218,7 +218,7 @@ TEST_CASE("what the set never saw lies where it predicts") {
 TEST_CASE("a plate of another size than it is said to have is told from the robot's moves") {
   const SimulatedSet& set = well_spread_set();
   const auto views = set.said(0.1, 0.01);
-  Plate plate = set.plate();
+  Target plate = set.plate();
   const auto scaled = [&](double factor) {
     plate.pitch_mm = factor * set.printed.pitch_mm;
     plate.radius_mm = factor * set.printed.dot_radius_mm;

@@ -40,7 +40,7 @@ std::optional<CalibrationRun> run(const std::string& kind, const std::string& na
   cv::Mat grey;
   for (const CalibrationPose& pose : set.poses) {
     grey = read_grey_image(pose.grid, channel);
-    views.push_back(look_at_pose(pose, set.plate, grey, grey));
+    views.push_back(detect_view(pose, set.plate, grey, grey));
     if (kind == "industrial") views.back().stripe.clear();
   }
   fs::remove_all(folder);

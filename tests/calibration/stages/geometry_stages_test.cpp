@@ -91,7 +91,7 @@ TEST_CASE("another plate than the one described is not found") {
   SimulatedSet set({}, 1, 502);
   auto grid = set.images.grid(set.poses[0], 1);
   const cv::Mat grey(set.images.sensor().height, set.images.sensor().width, CV_8U, grid.data());
-  Plate other = set.plate();
+  Target other = set.plate();
   other.columns = 7;
   CHECK(detect_target(grey, other).empty());
   CHECK(detect_target(cv::Mat::zeros(600, 800, CV_8U), set.plate()).empty());
@@ -140,7 +140,7 @@ TEST_CASE("closed forms give back the hand-eye of exact poses") {
 
 TEST_CASE("a plate's labels after a turn are those of the turned points") {
   for (const auto& [columns, rows] : {std::pair{4, 4}, std::pair{5, 3}}) {
-    Plate plate;
+    Target plate;
     plate.columns = columns;
     plate.rows = rows;
     plate.pitch_mm = 10;
@@ -159,14 +159,14 @@ TEST_CASE("a plate's labels after a turn are those of the turned points") {
 }
 
 TEST_CASE("only a pattern that a turn leaves as it is counts as symmetric") {
-  Plate plate{PlatePattern::asymmetric_circles, 5, 9, 12, 4, 0};
+  Target plate{TargetPattern::asymmetric_circles, 5, 9, 12, 4, 0};
   CHECK(plate.symmetry() == 1);
   plate.rows = 8;
   CHECK(plate.symmetry() == 2);
-  plate = {PlatePattern::chessboard, 7, 6, 10, 0, 0};
+  plate = {TargetPattern::chessboard, 7, 6, 10, 0, 0};
   CHECK(plate.symmetry() == 1);
   plate.columns = 8;
   CHECK(plate.symmetry() == 2);
-  plate = {PlatePattern::circles, 10, 10, 25.4, 6, 12};
+  plate = {TargetPattern::circles, 10, 10, 25.4, 6, 12};
   CHECK(plate.symmetry() == 1);
 }

@@ -33,7 +33,7 @@ struct SimulatedSet {
     return result;
   }
 
-  Plate plate() const { return plate_of(printed); }
+  Target plate() const { return plate_of(printed); }
 
   // RMS over the laser points at 270 to 330 mm, pixel to tool; mm.
   double end_to_end(const CalibrationRun& run) const {

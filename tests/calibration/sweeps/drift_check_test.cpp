@@ -18,13 +18,13 @@ namespace {
 constexpr double kLimit = 0.3;  // mm
 
 // One sweep from each of these sides.
-SweepRecord scans(SimulatedSweepsSettings settings, const std::vector<double>& sides_deg) {
+SweepData scans(SimulatedSweepsSettings settings, const std::vector<double>& sides_deg) {
   settings.kind = SceneKind::workpiece;
   settings.scene.tool_lying_about = false;
   settings.scene.search_begin_mm = -50;
   settings.scene.search_end_mm = 50;
   settings.speeds_mm_s = {30};
-  SweepRecord record;
+  SweepData record;
   for (const double side : sides_deg) {
     settings.scene.search_turn_deg = side;
     append_sweeps(record, settings, 801);
@@ -90,9 +90,9 @@ TEST_CASE("a ball is found among other points, its centre and radius without bia
 
 TEST_CASE("a ball scanned from two sides passes the true calibration and tells a knocked one") {
   const SimulatedSweepsSettings settings = ball_settings();
-  const SweepRecord record = scans(settings, {0, 180});
+  const SweepData record = scans(settings, {0, 180});
   const Calibration right = true_calibration(settings);
-  const ScanAgreement good = agreement_on_ball(record, right, 20);
+  const DriftCheck good = check_on_ball(record, right, 20);
   REQUIRE(good.refused.empty());
   CHECK(good.warnings.empty());
   CHECK(good.views.size() == 2);
@@ -104,7 +104,7 @@ TEST_CASE("a ball scanned from two sides passes the true calibration and tells a
   CHECK((good.views[0].centre - Eigen::Vector3d(950, 0, 20)).norm() < 0.1);
   CHECK(drift(good, kLimit).empty());
   for (const auto& [what, wrong] : knocked(right)) {
-    const ScanAgreement found = agreement_on_ball(record, wrong, 20);
+    const DriftCheck found = check_on_ball(record, wrong, 20);
     CAPTURE(what, found.place_mm, found.radius_mm, found.shape_mm, found.refused);
     CHECK_THAT(drift(found, kLimit), Contains("limit"));
   }
@@ -112,22 +112,22 @@ TEST_CASE("a ball scanned from two sides passes the true calibration and tells a
 
 TEST_CASE("a ball seen from one side alone says what it cannot tell, another ball is not found") {
   const SimulatedSweepsSettings settings = ball_settings();
-  const SweepRecord record = scans(settings, {0});
+  const SweepData record = scans(settings, {0});
   const Calibration right = true_calibration(settings);
-  const ScanAgreement one_side = agreement_on_ball(record, right, 20);
+  const DriftCheck one_side = check_on_ball(record, right, 20);
   REQUIRE(one_side.refused.empty());
   REQUIRE(one_side.warnings.size() == 1);
   CHECK_THAT(one_side.warnings[0], Contains("second side"));
-  CHECK_THAT(agreement_on_ball(record, right, 9).refused, Contains("no scan shows a ball"));
-  CHECK_THAT(agreement_on_faces(record, right).refused, Contains("one side"));
-  CHECK_FALSE(agreement_on_ball({}, right, 20).refused.empty());
+  CHECK_THAT(check_on_ball(record, right, 9).refused, Contains("no scan shows a ball"));
+  CHECK_THAT(check_on_faces(record, right).refused, Contains("one side"));
+  CHECK_FALSE(check_on_ball({}, right, 20).refused.empty());
 }
 
 TEST_CASE("a joint's faces from two sides pass the true calibration and tell a knocked one") {
   const SimulatedSweepsSettings settings = joint_settings();
-  const SweepRecord record = scans(settings, {-40, 40});
+  const SweepData record = scans(settings, {-40, 40});
   const Calibration right = true_calibration(settings);
-  const ScanAgreement good = agreement_on_faces(record, right);
+  const DriftCheck good = check_on_faces(record, right);
   INFO(good.refused);
   REQUIRE(good.refused.empty());
   CHECK(good.faces >= 3);
@@ -141,14 +141,14 @@ TEST_CASE("a joint's faces from two sides pass the true calibration and tell a k
     // Along the upright face's search, the direction that shows.
     if (what == std::string("shifted"))
       wrong.T_tool_camera = right.T_tool_camera * Eigen::Translation3d(0, 1, 0);
-    const ScanAgreement found = agreement_on_faces(record, wrong);
+    const DriftCheck found = check_on_faces(record, wrong);
     CAPTURE(what, found.faces, found.refused);
     CHECK_THAT(drift(found, kLimit), Contains("limit"));
   }
 }
 
 TEST_CASE("an error within the limit is still a drift where the calibration expects far less") {
-  ScanAgreement agreement;
+  DriftCheck agreement;
   agreement.error_mm = 0.25;
   CHECK(drift(agreement, 0.3).empty());
   agreement.predicted_mm = 0.08;

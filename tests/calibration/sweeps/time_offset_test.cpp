@@ -30,8 +30,8 @@ struct DrawnSweeps {
   double slope = 0.5, rise = 0, late = 0.02, play = 0, noise_mm = 0;
   std::vector<double> speeds{40, -40, 100, -100};  // mm/s; below 0 back
 
-  SweepRecord record(double length = 100) const {
-    SweepRecord record;
+  SweepData record(double length = 100) const {
+    SweepData record;
     RandomStream noise(1);
     std::int64_t time = kBegin;
     for (const double speed : speeds) {
@@ -136,8 +136,8 @@ TEST_CASE("what tells nothing of the offset is refused with what is missing") {
   one_way.noise_mm = 0.02;
   CHECK_THAT(refusal(one_way), Contains("one direction and speed"));
   CHECK_THAT(find_time_offset({}, plain_sensor()).refused, Contains("no sweep"));
-  SweepRecord dark = DrawnSweeps{}.record();
-  for (SweptStripe& stripe : dark.stripes) stripe.segments = {{{500, 500}}};
+  SweepData dark = DrawnSweeps{}.record();
+  for (SweepProfile& stripe : dark.stripes) stripe.segments = {{{500, 500}}};
   CHECK_THAT(find_time_offset(dark, plain_sensor()).refused, Contains("no flat face"));
 }
 
@@ -158,7 +158,7 @@ TEST_CASE("speeds that are too alike are said, and the deviation bears the play 
 TEST_CASE("a corner's two faces and a hand-eye that is off do not move the offset") {
   SimulatedSweepsSettings settings = rising_sweeps();
   settings.kind = SceneKind::workpiece;
-  SweepRecord record;
+  SweepData record;
   append_sweeps(record, settings, 701);
   Calibration calibration = true_calibration(settings);
   calibration.time_offset = 0;
@@ -178,7 +178,7 @@ TEST_CASE("a corner's two faces and a hand-eye that is off do not move the offse
 TEST_CASE("the offset of a simulated sensor is found from rough table and jittering stamps") {
   for (const std::uint64_t seed : {702, 703}) {
     const SimulatedSweepsSettings settings = rising_sweeps();
-    SweepRecord record;
+    SweepData record;
     append_sweeps(record, settings, seed);
     Calibration calibration = true_calibration(settings);
     calibration.time_offset = 0;

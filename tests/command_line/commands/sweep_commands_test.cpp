@@ -33,7 +33,7 @@ std::vector<std::uint8_t> encoded(const Message& message) {
   return bytes;
 }
 
-stripe_t stripe_message(const SweptStripe& stripe, std::int64_t seq) {
+stripe_t stripe_message(const SweepProfile& stripe, std::int64_t seq) {
   stripe_t message{};
   message.utime = stripe.utime;
   message.run_id = stripe.scan_id - 1'000'000;  // each recording a start of its own
@@ -68,7 +68,7 @@ struct Recordings {
 
   void save(const std::string& name, const SimulatedSweepsSettings& settings, std::uint64_t seed,
             const Calibration& calibration, bool with_poses = true) const {
-    SweepRecord record;
+    SweepData record;
     append_sweeps(record, settings, seed);
     EventLogWriter log((root / name).string());
     log.write(1, "LASER0_CALIBRATION", encoded(to_message(calibration)));
@@ -86,7 +86,7 @@ struct Recordings {
       log.write(t, "ROBOT0_POSE", encoded(pose));
     }
     seq = 0;
-    for (const SweptStripe& stripe : record.stripes)
+    for (const SweepProfile& stripe : record.stripes)
       log.write(stripe.utime, "LASER0_STRIPE", encoded(stripe_message(stripe, seq++)));
     log.close();
   }

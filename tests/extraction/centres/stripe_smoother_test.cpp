@@ -15,10 +15,10 @@ constexpr double kSigma = 4;
 // The crest of a stripe along y(x) after a Gaussian of sigma, to second order for small slopes: the
 // mean of y over a Gaussian of that sigma.
 template <class Curve>
-std::vector<CoursePoint> crest(Curve y, int count, double noise, std::uint64_t seed = 1) {
+std::vector<SmoothedPoint> crest(Curve y, int count, double noise, std::uint64_t seed = 1) {
   std::mt19937_64 random(seed);
   std::normal_distribution<double> grain(0, 1);
-  std::vector<CoursePoint> points;
+  std::vector<SmoothedPoint> points;
   for (int x = 0; x < count; ++x) {
     double mean = 0, weights = 0;
     for (double d = -5 * kSigma; d <= 5 * kSigma; d += 0.25) {
@@ -31,7 +31,7 @@ std::vector<CoursePoint> crest(Curve y, int count, double noise, std::uint64_t s
   return points;
 }
 
-double rms_from(const std::vector<CoursePoint>& points, auto y, int first, int last) {
+double rms_from(const std::vector<SmoothedPoint>& points, auto y, int first, int last) {
   double sum = 0;
   for (int i = first; i < last; ++i) sum += std::pow(points[i].across - y(points[i].along), 2);
   return std::sqrt(sum / (last - first));
@@ -58,7 +58,7 @@ TEST_CASE("a straight course comes out straight, less noisy, and its deviation s
       }
       points[x].across = line(x) + 0.3 * sum / std::sqrt(power);
     }
-    BranchCourse().smooth(points);
+    StripeSmoother().smooth(points);
     for (int i = 40; i < 260; ++i) {
       squares += std::pow(points[i].across - line(points[i].along), 2);
       told += points[i].deviation * points[i].deviation;
@@ -79,7 +79,7 @@ TEST_CASE("what the kernels cut off a rounded corner is put back") {
   };
   const auto found = crest(corner, 300, 0.01);
   auto points = found;
-  BranchCourse().smooth(points);
+  StripeSmoother().smooth(points);
   // A graph's crest moves by the curvature's 1 / (1 + slope^2): exact only at the apex and for
   // small slopes, so that steep flanks keep part of it.
   CHECK(rms_from(points, corner, 140, 160) < 0.35 * rms_from(found, corner, 140, 160));
@@ -91,8 +91,8 @@ TEST_CASE("how far a line is smoothed follows from what its centres are worth") 
   const auto wave = [](double x) { return 30 + 0.6 * std::sin(x / 6); };
   const auto flattened = [&](double deviation) {
     auto points = crest(wave, 300, 0.001);
-    for (CoursePoint& point : points) point.deviation = deviation;
-    BranchCourse().smooth(points);
+    for (SmoothedPoint& point : points) point.deviation = deviation;
+    StripeSmoother().smooth(points);
     return rms_from(points, wave, 40, 260);
   };
   CHECK(flattened(0.005) < 0.02);
@@ -100,7 +100,7 @@ TEST_CASE("how far a line is smoothed follows from what its centres are worth") 
   // The fainter half of a line tells less than the other.
   auto points = crest([](double) { return 30.0; }, 300, 0.05);
   for (int i = 150; i < 300; ++i) points[i].deviation *= 4;
-  BranchCourse().smooth(points);
+  StripeSmoother().smooth(points);
   CHECK(points[220].deviation > 1.5 * points[80].deviation);
 }
 
@@ -109,7 +109,7 @@ TEST_CASE("a corner is kept in noise that hides a bend") {
   double squares = 0;
   for (int seed = 1; seed <= 10; ++seed) {
     auto points = crest(corner, 300, 0.3, seed);
-    BranchCourse().smooth(points);
+    StripeSmoother().smooth(points);
     squares += std::pow(rms_from(points, corner, 156, 180), 2) / 10;
   }
   CHECK(std::sqrt(squares) < 0.2);
@@ -122,14 +122,14 @@ TEST_CASE("points at the border are replaced by what the others say, or given up
     points[i].at_border = true;
     points[i].across += 2;  // bent by the mirrored image
   }
-  BranchCourse().smooth(points);
+  StripeSmoother().smooth(points);
   for (int i = 0; i < 8; ++i) {
     CHECK(points[i].across == Approx(line(i)).margin(0.15));
     CHECK(points[i].deviation > 0);
   }
-  std::vector<CoursePoint> few(points.begin(), points.begin() + 9);
-  for (CoursePoint& p : few) p.deviation = 0.1;
-  BranchCourse().smooth(few);
+  std::vector<SmoothedPoint> few(points.begin(), points.begin() + 9);
+  for (SmoothedPoint& p : few) p.deviation = 0.1;
+  StripeSmoother().smooth(few);
   CHECK(few.front().deviation == 0);
   CHECK(few.back().deviation == 0.1);
 }

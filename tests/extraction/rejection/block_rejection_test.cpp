@@ -48,7 +48,7 @@ std::vector<cv::Mat> hard_images(double sigma) {
   return images;
 }
 
-// max(-xx, -yy) + |xy| of bend_bound.hpp at every pixel, the known ones two apart.
+// max(-xx, -yy) + |xy| of hessian_bound.hpp at every pixel, the known ones two apart.
 cv::Mat exact_bend(const cv::Mat& image) {
   const auto row = [](std::initializer_list<double> taps, double divisor) {
     cv::Mat kernel(1, static_cast<int>(taps.size()), CV_64F);
@@ -173,7 +173,7 @@ TEST_CASE("no second derivative exceeds the bound that rejects blocks") {
 TEST_CASE("no line is stronger than second differences around allow") {
   const double sigma = GENERATE(2.3, 2.5, 3.3, 5.0);
   const GaussianKernels kernels = gaussian_kernels(sigma);
-  const BendBound bound = bend_bound(kernels, 10);
+  const HessianBound bound = hessian_bound(kernels, 10);
   REQUIRE(bound.holds);
   double nearest = 0;
   for (const cv::Mat& image : hard_images(sigma)) {
@@ -210,7 +210,7 @@ TEST_CASE("bends in whole numbers fall short of the exact ones by no more than t
     asked.resize(grid.cell_columns(), grid.cell_rows());
     for (int row = 0; row < asked.rows(); ++row)
       std::fill_n(asked.row(row), asked.columns(), std::uint16_t{1});
-    Bend bend;
+    SecondDifferences bend;
     bend.measure(grid, asked);
     const cv::Mat exact = exact_bend(image);
     double most_short = -1e9, most_over = -1e9;
@@ -220,18 +220,18 @@ TEST_CASE("bends in whole numbers fall short of the exact ones by no more than t
         double highest = 0;
         for (int k = 0; k < SmoothedGrid::kColumns; ++k)
           highest = std::max(highest, exact.at<double>(v, cell * SmoothedGrid::kCellWidth + 2 * k));
-        const double found = Bend::kUnit * bend.highest().row(y)[cell];
+        const double found = SecondDifferences::kUnit * bend.highest().row(y)[cell];
         most_short = std::max(most_short, highest - found);
         most_over = std::max(most_over, found - highest);
       }
-    CHECK(most_short <= Bend::kShort);
-    CHECK(most_over <= Bend::kShort);
+    CHECK(most_short <= SecondDifferences::kShort);
+    CHECK(most_over <= SecondDifferences::kShort);
   }
 }
 
 TEST_CASE("kernels that smooth too little for second differences are told") {
-  CHECK_FALSE(bend_bound(gaussian_kernels(1.2), 10).holds);
-  CHECK_FALSE(bend_bound(gaussian_kernels(2.2), 10).holds);
+  CHECK_FALSE(hessian_bound(gaussian_kernels(1.2), 10).holds);
+  CHECK_FALSE(hessian_bound(gaussian_kernels(2.2), 10).holds);
 }
 
 TEST_CASE("blocks without a stripe are skipped") {

@@ -118,7 +118,7 @@ TEST_CASE("a face of the thinned points is told in all points of the scan") {
       joined(joined(range(0, 21), range(22, 51)), range(101 + 21, 101 + 21 + 41));
   CHECK(upsampled(cloud, downsampled, face, plate, 0.5) == truth);
 
-  // A thinned point of the face stays in it, whatever its distance from the plane.
+  // A downsampled point of the face stays in it, whatever its distance from the plane.
   const Plane lower{Eigen::Vector3d::UnitZ(), 1};
   std::vector<int> own;
   for (const int i : face) own.push_back(downsampled.places[i]);
