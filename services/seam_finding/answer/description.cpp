@@ -1,5 +1,6 @@
 #include "services/seam_finding/answer/description.hpp"
 
+#include <algorithm>
 #include <utility>
 
 #include "common/geometry.hpp"
@@ -44,6 +45,15 @@ void set_gap(SeamResult& result) {
   result.gap_deviation = deviation / count;
 }
 
+SeamPlate face_of(const Joint& joint, int j) {
+  SeamPlate face;
+  face.plane = joint.plates[j].plane;
+  face.away = away_from_seam(joint.plates[j], joint.plates[1 - j]);
+  if (joint.parallel)
+    face.inset = std::max(0.0, face.away.dot(joint.parallel->edges[j].point - joint.line.point));
+  return face;
+}
+
 }  // namespace
 
 SeamResult describe(Joint joint, Findings findings, const SeamFindingSettings& settings) {
@@ -59,6 +69,7 @@ SeamResult describe(Joint joint, Findings findings, const SeamFindingSettings& s
   if (joint.type == JointType::kV) result.groove_angle = joint.angle;
   for (int j = 0; j < 2; ++j) {
     result.normals[j] = joint.plates[j].plane.normal;
+    result.faces[j] = face_of(joint, j);
     result.plates[j] = std::move(joint.plates[j].points);
   }
   const Coverage& course = joint.coverage;

@@ -2,6 +2,8 @@
 
 #include <fmt/format.h>
 
+#include <cmath>
+
 #include "common/geometry.hpp"
 
 namespace arcstart::seam_finding {
@@ -100,8 +102,48 @@ std::string about_no_seam(const Reason& reason) {
           "no surface is smooth enough: of {:.0f} draws of its planes {:.0f} give a seam, and "
           "{:.0f} of them the same one",
           reason.of, reason.number, reason.most);
+    case Code::kSeamNotShown:
+      return fmt::format(
+          "the stripes contradict the seam that was found: {:.0f} of {:.0f} along it show both "
+          "plates",
+          reason.number, reason.of);
+    case Code::kPlateTurned:
+      return fmt::format(
+          "the stripes contradict the seam that was found: a plate is turned by {:.2f} deg to it",
+          std::abs(reason.number) / kDegree);
+    case Code::kPlateRound:
+      return fmt::format(
+          "the stripes contradict the seam that was found: a plate is round, its radius {:.0f} mm",
+          reason.number);
     default:
       return about_a_joint(reason);
+  }
+}
+
+std::string about_a_checked_end(const Reason& reason) {
+  switch (reason.code) {
+    case Code::kStartContradicted:
+      return fmt::format("the start is not there: the stripes show the plates' ends {:.1f} mm off",
+                         reason.number);
+    case Code::kEndContradicted:
+      return fmt::format("the end is not there: the stripes show the plates' ends {:.1f} mm off",
+                         reason.number);
+    case Code::kStartNotShown:
+      return "no stripes beside the start show both plates";
+    case Code::kEndNotShown:
+      return "no stripes beside the end show both plates";
+    case Code::kStartLooselyBounded:
+      return fmt::format("the stripes leave it open where the start lies, within {:.1f} mm",
+                         reason.number);
+    case Code::kEndLooselyBounded:
+      return fmt::format("the stripes leave it open where the end lies, within {:.1f} mm",
+                         reason.number);
+    case Code::kStartBounded:
+      return fmt::format("the stripes bound the start to {:.1f} mm", reason.number);
+    case Code::kEndBounded:
+      return fmt::format("the stripes bound the end to {:.1f} mm", reason.number);
+    default:
+      return about_no_seam(reason);
   }
 }
 
@@ -139,7 +181,7 @@ std::string in_words(const Reason& reason) {
     case Code::kGapLikeNone:
       return "the gap cannot be told from none";
     default:
-      return about_no_seam(reason);
+      return about_a_checked_end(reason);
   }
 }
 

@@ -49,6 +49,10 @@ struct Reason {
     kStartMissing,      // number: stripes missing right before the start
     kSimilarScores,     // number, of: seams, within that factor
     kDrawsDisagree,     // number, of, most: draws with a seam, of so many, on the same one
+    // The referee's: stripes show something else than the seam that was found.
+    kSeamNotShown,  // number, of: stripes that show both plates, of those at the seam that tell
+    kPlateTurned,   // number: a plate's tilt against what is claimed; rad
+    kPlateRound,    // number: radius; mm
 
     // What a person should know of a seam that was found.
     kMissingBeforeStart,  // number: stripes
@@ -65,6 +69,15 @@ struct Reason {
     kGroove,       // number: included angle; rad
     kNoGap,        // not determined
     kGapLikeNone,  // smaller than it is known to
+    // The referee's of an end. number: mm along the seam.
+    kStartContradicted,  // by so much, at least: the seam ends elsewhere
+    kEndContradicted,
+    kStartNotShown,  // no run of stripes shows both plates near it
+    kEndNotShown,
+    kStartLooselyBounded,  // it may be off by so much, too much for an answer
+    kEndLooselyBounded,
+    kStartBounded,  // it may be off by so much
+    kEndBounded,
   };
 
   Code code = Code::kNone;

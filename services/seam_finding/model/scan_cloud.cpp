@@ -5,7 +5,7 @@
 namespace arcstart::seam_finding {
 
 void end_stripe(ScanCloud& cloud, ScanStripe::Seen seen, const Eigen::Vector3d& camera_centre,
-                const Eigen::Vector3d& tool_position) {
+                const Eigen::Vector3d& tool_position, const Eigen::Quaterniond& tool_turn) {
   ScanStripe stripe;
   stripe.seen = seen;
   if (!cloud.stripes.empty())
@@ -13,6 +13,7 @@ void end_stripe(ScanCloud& cloud, ScanStripe::Seen seen, const Eigen::Vector3d& 
   stripe.count = cloud.size() - stripe.first;
   stripe.camera_centre = camera_centre;
   stripe.tool_position = tool_position;
+  stripe.tool_turn = tool_turn;
   cloud.stripes.push_back(stripe);
 }
 

@@ -1,7 +1,7 @@
 // The point cloud of a scan: its points with where they come from, and its stripes in order.
 #pragma once
 
-#include <Eigen/Core>
+#include <Eigen/Geometry>
 #include <optional>
 #include <vector>
 
@@ -17,10 +17,11 @@ struct ScanStripe {
               // known
   };
   Seen seen = Seen::kMissing;
-  int first = 0;                                            // index of its first point
-  int count = 0;                                            // its points
-  Eigen::Vector3d camera_centre = Eigen::Vector3d::Zero();  // in base; mm; where kSeen
-  Eigen::Vector3d tool_position = Eigen::Vector3d::Zero();  // in base; mm; where kSeen
+  int first = 0;                                                  // index of its first point
+  int count = 0;                                                  // its points
+  Eigen::Vector3d camera_centre = Eigen::Vector3d::Zero();        // in base; mm; where kSeen
+  Eigen::Vector3d tool_position = Eigen::Vector3d::Zero();        // in base; mm; where kSeen
+  Eigen::Quaterniond tool_turn = Eigen::Quaterniond::Identity();  // tool to base; where kSeen
 };
 
 // Where a point comes from.
@@ -54,7 +55,8 @@ struct ScanCloud {
 // Appends a stripe; its points are those already appended behind the stripe before.
 void end_stripe(ScanCloud& cloud, ScanStripe::Seen seen,
                 const Eigen::Vector3d& camera_centre = {0, 0, 0},
-                const Eigen::Vector3d& tool_position = {0, 0, 0});
+                const Eigen::Vector3d& tool_position = {0, 0, 0},
+                const Eigen::Quaterniond& tool_turn = Eigen::Quaterniond::Identity());
 
 ScanCloud unorganised_cloud(std::vector<Eigen::Vector3d> points);
 

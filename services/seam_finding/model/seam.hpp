@@ -7,6 +7,7 @@
 #include <string>
 #include <vector>
 
+#include "common/geometry.hpp"
 #include "services/seam_finding/model/reason.hpp"
 #include "services/seam_finding/model/seam_end.hpp"
 
@@ -19,6 +20,26 @@ struct SeamMeasurement {
   double residual = -1;      // from the line; mm, -1 where a plate was not seen beside the seam
   bool tack = false;         // metal stands before both plates there
   double gap = -1, gap_deviation = -1;  // between the plates; mm, -1 where not measured
+};
+
+// A plate as the answer claims it, beside the seam.
+struct SeamPlate {
+  Plane plane;                                     // normal out of the metal
+  Eigen::Vector3d away = Eigen::Vector3d::Zero();  // in the plate, away from the seam; unit
+  double inset = 0;  // from the seam to where the plate begins: half a gap or groove; mm
+};
+
+// Where else an end may be.
+struct SecondPlace {
+  Eigen::Vector3d place = Eigen::Vector3d::Zero();  // in base; mm
+  double weight = 0;                                // probability, 0: there is none
+};
+
+// The seam as it was held against the stripes.
+struct SeamCheck {
+  int stripes = -1;       // near it; -1: not done
+  double explained = -1;  // share of what is seen where the plates are claimed that is on them
+  double worst = -1;      // mm along the seam between an end and where the stripes bound it
 };
 
 struct Polyline {
@@ -53,12 +74,14 @@ struct SeamResult {
   Eigen::Vector3d direction = Eigen::Vector3d::Zero();  // unit, along the search
   std::array<Eigen::Vector3d, 2> normals = {Eigen::Vector3d::Zero(),
                                             Eigen::Vector3d::Zero()};  // out of the metal
+  std::array<SeamPlate, 2> faces;  // the plates' tops; normals says the same of their planes
   double angle = 0;  // between the plates' open sides; of a groove, between its slants
   double gap = -1, gap_deviation = -1;  // mean along the seam; of a groove, its width at the top
   double thickness = -1;                // of a lap's upper plate; mm
   double groove_angle = -1;             // included angle of a V-groove; rad
   EndVisibility start_visibility = EndVisibility::kNotDetermined;
   EndVisibility end_visibility = EndVisibility::kNotDetermined;
+  SecondPlace start_second, end_second;
   std::optional<SeamAccuracy> accuracy;  // nothing where it was not determined
   Polyline polyline;
   std::vector<SeamMeasurement> stations;  // along counts from the start
@@ -74,6 +97,7 @@ struct SeamResult {
   };
   std::vector<Alternative> alternatives;
 
+  SeamCheck checked;
   std::vector<int> background;  // indices of the points taken for background
 };
 

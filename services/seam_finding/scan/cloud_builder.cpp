@@ -60,7 +60,9 @@ void CloudBuilder::add(const profile_t& profile) {
                               step_at(profile, i)});
   }
   end_stripe(cloud_, seen_in(profile), Eigen::Map<const Eigen::Vector3d>(profile.camera_centre),
-             Eigen::Map<const Eigen::Vector3d>(profile.tool_position));
+             Eigen::Map<const Eigen::Vector3d>(profile.tool_position),
+             Eigen::Quaterniond(profile.tool_quaternion[0], profile.tool_quaternion[1],
+                                profile.tool_quaternion[2], profile.tool_quaternion[3]));
 }
 
 }  // namespace arcstart::seam_finding

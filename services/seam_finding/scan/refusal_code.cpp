@@ -69,6 +69,12 @@ std::int16_t refusal_code(const Reason& reason) {
       return seam_t::SEVERAL_SEAMS;
     case Code::kDrawsDisagree:
       return seam_t::SURFACE_TOO_ROUGH;
+    case Code::kSeamNotShown:
+      return seam_t::SEAM_NOT_SHOWN;
+    case Code::kPlateTurned:
+      return seam_t::PLATE_TURNED;
+    case Code::kPlateRound:
+      return seam_t::PLATE_ROUND;
     case Code::kNoJoint:
       return refusal_code({reason.because, reason.number});
     default:

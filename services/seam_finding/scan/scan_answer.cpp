@@ -7,6 +7,7 @@
 #include "services/seam_finding/background/surface_background.hpp"
 #include "services/seam_finding/find_seam.hpp"
 #include "services/seam_finding/paper/find_seam_as_in_the_paper.hpp"
+#include "services/seam_finding/referee/ruling.hpp"
 #include "services/seam_finding/scan/cloud_builder.hpp"
 #include "services/seam_finding/scan/covariance_message.hpp"
 #include "services/seam_finding/scan/seam_message.hpp"
@@ -200,8 +201,10 @@ seam_t answer_workpiece(const CollectedScan& scan, const PreparedScan& prepared,
   seam.remark = balance.losses();
   if (scan.state.end_cause == scan_t::CAMERA_LOST)
     seam.remark += "the camera was lost in the scan; ";
-  fill_in(seam, find_seam(cloud, prepared.segmentation, prepared.downsampled, settings,
-                          static_cast<std::uint64_t>(scan.state.scan_id)));
+  SeamResult result = find_seam(cloud, prepared.segmentation, prepared.downsampled, settings,
+                                static_cast<std::uint64_t>(scan.state.scan_id));
+  if (settings.start_rule == StartRule::kEdges) rule(examine(cloud, result), result);
+  fill_in(seam, result);
   seam.background_points = static_cast<int>(prepared.segmentation.background.size());
   fill_in_calibration_covariance(seam, scan, calibration);
   return seam;

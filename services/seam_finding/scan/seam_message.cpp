@@ -29,6 +29,15 @@ std::int8_t visibility_of(EndVisibility visibility) {
   return seam_t::NOT_DETERMINED;
 }
 
+// An end that is not known is named, the start before the end.
+std::int16_t usable(const SeamResult& result) {
+  if (result.start_visibility == EndVisibility::kNotDetermined) return seam_t::START_UNSURE;
+  if (result.start_visibility != EndVisibility::kSeen) return seam_t::START_NOT_SEEN;
+  if (result.end_visibility == EndVisibility::kNotDetermined) return seam_t::END_UNSURE;
+  if (result.end_visibility != EndVisibility::kSeen) return seam_t::END_NOT_SEEN;
+  return seam_t::USABLE;
+}
+
 template <std::size_t N>
 void fill(double (&matrix)[N][N], double value) {
   for (auto& row : matrix) std::fill(std::begin(row), std::end(row), value);
@@ -64,6 +73,9 @@ void fill_in(seam_t& seam, const SeamResult& result) {
     seam.alternatives.push_back(alternative);
   }
   seam.alternative_count = static_cast<int>(seam.alternatives.size());
+  seam.stripes_checked = result.checked.stripes;
+  seam.explained_share = result.checked.explained;
+  seam.worst_contradiction = result.checked.worst;
   seam.refusal = refusal_code(result.reason);
   seam.reason = in_words(result.reason);
   if (result.verdict == SeamResult::Verdict::kRefused) seam.verdict = seam_t::REFUSED;
@@ -86,6 +98,11 @@ void fill_in(seam_t& seam, const SeamResult& result) {
   // Thickness, mismatch and groove angle stay as in empty_seam() until a result has them.
   seam.start_visibility = visibility_of(result.start_visibility);
   seam.end_visibility = visibility_of(result.end_visibility);
+  seam.usable = usable(result);
+  copy(result.start_second.place, seam.start_second);
+  copy(result.end_second.place, seam.end_second);
+  seam.start_second_weight = result.start_second.weight;
+  seam.end_second_weight = result.end_second.weight;
   for (const Eigen::Vector3d& point : result.polyline.points)
     seam.polyline.push_back({point.x(), point.y(), point.z()});
   seam.polyline_count = static_cast<int>(seam.polyline.size());

@@ -1,0 +1,65 @@
+// Numbers of the referee. Behind the dash stands the source; "bench": none is known,
+// scripts/bench seam --wild judges the number.
+#pragma once
+
+namespace arcstart::seam_finding {
+
+struct RefereeConstants {
+  // Points of a stripe by which its plane of light is known - all stripes share one plane.
+  int light_points = 24;
+  // mm; points that spread less off a line span no plane - the first plate's height.
+  double light_width = 1.0;
+
+  // mm; a stripe is looked at in points no nearer to each other - a seventh of a spacing.
+  double step = 0.5;
+  // mm; of a plate away from the seam, at most - what a plate's edge is known by.
+  double reach = 60;
+  // mm; a plate counts from there on: nearer, fillets, gaps and reflections are - bench.
+  double beside_seam = 1.5;
+  // mm; along the seam beyond the claimed ends, what is looked at - the longest tool across a seam.
+  double beyond = 80;
+  // Of a plate's width along the trace for each away, at most: flatter stripes say little of it.
+  double flattest = 4;
+  // mm; what lies no farther from a plate is of it, at least and at most - bench.
+  double least_tolerance = 0.25, most_tolerance = 0.8;
+  // mm; a plate's own bend and its waves from robot and calibration, at most - 1 in 100.
+  double bend = 1.0;
+  // mm; of a plate away from where it begins, what its shape is taken from - bench.
+  double shape_width = 15;
+
+  // Tilt against the plane claimed, at most; rad - half of what must be noticed, 1 degree.
+  double turned = 0.0087;
+  // mm; a plate is not that of a round thing whose radius is less - the largest hand tool.
+  double round = 60;
+  // mm; a strip narrower than this may be that of a round thing - bench.
+  double narrow = 15;
+
+  // mm; of a plate away from where it begins, what is beside the seam - bench.
+  double near_seam = 5;
+  // A stripe is on or off a plate beside the seam by this share of what is known there - bench.
+  double clear = 0.75;
+  // Of an edge's direction from the normal to the seam: along for each away - cut up to 31 degrees.
+  double steepest = 0.6, steepness_step = 0.005;
+  // mm; a place of an edge is off by so much, at most - 0.3 px along the stripe, and the noise.
+  double place = 0.2;
+  // Of the stripes that speak of an edge, those that may contradict it - bench.
+  double contradicting = 0.2;
+  // Share of a stripe's places on a plate that may be on the wrong side of its edge - bench.
+  double misfit = 0.15;
+
+  // mm; an end is not off by less than it may be - half of what is wrong silently.
+  double allowed = 0.5;
+  // Standard deviations of an end that it may be off.
+  double deviations = 3;
+  // Spacings of stripes: an end of which no more is known is not determined - bench.
+  double determined = 2;
+  // Stripes at the seam that must show both plates, at least, and of those that tell, the share.
+  int shown_stripes = 3;
+  double shown_share = 0.6;
+  // mm; a plate lies off the seam by so much at an end, at most, before it counts - what is wrong
+  // silently across.
+  double off = 0.4;
+};
+inline constexpr RefereeConstants kReferee;
+
+}  // namespace arcstart::seam_finding

@@ -1,0 +1,128 @@
+#include "services/seam_finding/referee/plate_shape.hpp"
+
+#include <Eigen/Cholesky>
+#include <algorithm>
+#include <cmath>
+
+#include "services/seam_finding/referee/constants.hpp"
+
+namespace arcstart::seam_finding {
+namespace {
+
+constexpr int kTerms = 5;  // 1, x, x^2 along, w, w^2 away
+using Terms = Eigen::Matrix<double, kTerms, 1>;
+
+// Numbers of order 1, for the equations' sake.
+struct Scale {
+  double middle, half;  // along; mm
+  double begin, width;  // away; mm
+  Terms terms(const Place& place) const {
+    const double x = std::clamp((place.along - middle) / half, -1.0, 1.0);
+    const double w = (place.away - begin) / width - 0.5;
+    return {1, x, x * x, w, w * w};
+  }
+};
+
+template <class Visitor>
+void visit_places(const PlateView& view, double length, const Scale& scale, Visitor visitor) {
+  for (const StripeOnPlate& stripe : view.stripes)
+    for (const Place& place : stripe.places)
+      if (place.along > 0 && place.along < length && place.away > scale.begin &&
+          place.away < scale.begin + scale.width && std::abs(place.height) < 2 * kReferee.bend)
+        visitor(place);
+}
+
+double width_of(const PlateView& view, double length, double tolerance) {
+  std::vector<double> widths;
+  for (const StripeOnPlate& stripe : view.stripes) {
+    double reached = -1;
+    for (const Place& place : stripe.places) {
+      if (place.along < 0 || place.along > length || place.look != Look::kOn) continue;
+      if (reached >= 0 && place.away > reached + 3 * kReferee.bend) break;
+      reached = place.away;
+    }
+    if (reached > 0) widths.push_back(reached);
+  }
+  if (widths.empty()) return 0;
+  const auto quarter = widths.begin() + static_cast<std::ptrdiff_t>(widths.size() / 4);
+  std::nth_element(widths.begin(), quarter, widths.end());
+  return std::max(0.0, *quarter - 2 * tolerance);
+}
+
+}  // namespace
+
+double PlateShape::height_at_seam(double along) const {
+  const double x = std::clamp(along - middle, -half, half);
+  return bend(0) + bend(1) * x + bend(2) * x * x;
+}
+
+double PlateShape::height_at(double along, double away) const {
+  return height_at_seam(along) + tilt * away;
+}
+
+PlateShape shape_of(const PlateView& view, double length) {
+  PlateShape shape;
+  Scale scale{length / 2, length / 2, view.plate.inset + kReferee.beside_seam,
+              kReferee.shape_width};
+  shape.tolerance = kReferee.most_tolerance;
+  shape.middle = scale.middle, shape.half = scale.half;
+  Terms solution = Terms::Zero();
+  double cut = kReferee.bend, squares = 0;
+  Eigen::Matrix<double, kTerms, kTerms> inverse;
+  int count = 0;
+  for (int pass = 0; pass < 4; ++pass) {
+    Eigen::Matrix<double, kTerms, kTerms> matrix =
+        1e-6 * Eigen::Matrix<double, kTerms, kTerms>::Identity();
+    Terms right = Terms::Zero();
+    count = 0;
+    visit_places(view, length, scale, [&](const Place& place) {
+      const Terms terms = scale.terms(place);
+      if (std::abs(place.height - solution.dot(terms)) > cut) return;
+      matrix += terms * terms.transpose();
+      right += place.height * terms;
+      ++count;
+    });
+    if (count < 4 * kTerms) return shape;
+    inverse = matrix.inverse();
+    solution = inverse * right;
+    squares = 0;
+    double kept = 0, farthest = 0;
+    visit_places(view, length, scale, [&](const Place& place) {
+      const double residual = place.height - solution.dot(scale.terms(place));
+      if (std::abs(residual) > cut) return;
+      squares += residual * residual, ++kept;
+      farthest = std::max(farthest, place.away);
+    });
+    shape.noise = std::sqrt(squares / std::max(1.0, kept - kTerms));
+    shape.width = farthest - scale.begin;
+    cut = std::clamp(3 * shape.noise, kReferee.least_tolerance, kReferee.bend);
+  }
+  shape.known = true;
+  shape.tolerance = std::clamp(4 * shape.noise, kReferee.least_tolerance, kReferee.most_tolerance);
+  // What a stripe is wrong by, it is wrong by in all its places.
+  const double stripes = static_cast<double>(view.stripes.size());
+  const double alike = std::max(1.0, count / std::max(1.0, stripes));
+  const double variance = shape.noise * shape.noise * alike;
+  shape.tilt = solution(3) / scale.width;
+  shape.tilt_deviation = std::sqrt(variance * inverse(3, 3)) / scale.width;
+  shape.curvature = 2 * solution(4) / (scale.width * scale.width);
+  shape.curvature_deviation = 2 * std::sqrt(variance * inverse(4, 4)) / (scale.width * scale.width);
+  // Carried to the seam: w there is -begin / width - 1/2.
+  const double at_seam = -scale.begin / scale.width - 0.5;
+  shape.bend = {solution(0) + solution(3) * at_seam, solution(1) / scale.half,
+                solution(2) / (scale.half * scale.half)};
+  return shape;
+}
+
+void set_looks(const PlateShape& shape, double length, PlateView& view) {
+  for (StripeOnPlate& stripe : view.stripes)
+    for (Place& place : stripe.places) {
+      const double height = place.height - shape.height_at(place.along, place.away);
+      place.look = height > shape.tolerance    ? Look::kBefore
+                   : height < -shape.tolerance ? Look::kThrough
+                                               : Look::kOn;
+    }
+  view.width = width_of(view, length, shape.tolerance);
+}
+
+}  // namespace arcstart::seam_finding

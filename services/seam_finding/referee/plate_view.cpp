@@ -1,0 +1,93 @@
+#include "services/seam_finding/referee/plate_view.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include "services/seam_finding/referee/constants.hpp"
+
+namespace arcstart::seam_finding {
+namespace {
+
+// The seam carried square to the plate onto its plane, and the directions in which places count.
+struct Frame {
+  Plane plane;
+  Eigen::Vector3d origin, along, away;
+};
+
+Frame frame_of(const SeamResult& seam, const SeamPlate& plate) {
+  Frame frame;
+  frame.plane = plate.plane;
+  frame.origin = seam.start - plate.plane.signed_distance(seam.start) * plate.plane.normal;
+  frame.along =
+      (seam.direction - seam.direction.dot(plate.plane.normal) * plate.plane.normal).normalized();
+  frame.away = plate.away;
+  return frame;
+}
+
+// Where the light to a point meets the plane; nothing where it does not, or in too flat an angle.
+std::optional<Place> place_of(const Frame& frame, const StripeLight& light,
+                              const Eigen::Vector3d& point) {
+  Place place;
+  place.height = frame.plane.signed_distance(point);
+  Eigen::Vector3d at = point - place.height * frame.plane.normal;
+  if (std::abs(place.height) > kReferee.bend) {
+    const double source = frame.plane.signed_distance(light.source);
+    const double share = source / (source - place.height);  // of the way to the point
+    if (!std::isfinite(share) || share <= 0) return std::nullopt;
+    at = light.source + share * (point - light.source);
+  }
+  place.along = frame.along.dot(at - frame.origin);
+  place.away = frame.away.dot(at - frame.origin);
+  return place;
+}
+
+// The light's trace on the plate; false where it runs along the seam, or the source is behind.
+bool set_trace(const Frame& frame, const StripeLight& light, StripeOnPlate& stripe) {
+  if (frame.plane.signed_distance(light.source) <= 0) return false;
+  const double slope = light.plane.normal.dot(frame.along);
+  if (std::abs(slope) < 1e-3) return false;
+  stripe.crossing = -light.plane.signed_distance(frame.origin) / slope;
+  stripe.lean = -light.plane.normal.dot(frame.away) / slope;
+  return std::abs(stripe.lean) < kReferee.flattest;
+}
+
+void add_places(const ScanCloud& cloud, const Frame& frame, const StripeLight& light,
+                StripeOnPlate& stripe) {
+  const ScanStripe& seen = cloud.stripes[stripe.stripe];
+  const Eigen::Vector3d* last = nullptr;
+  for (int i = seen.first; i < seen.first + seen.count; ++i) {
+    const Eigen::Vector3d& point = cloud.points[i];
+    if (last && !cloud.origins[i].segment_end &&
+        (point - *last).squaredNorm() < kReferee.step * kReferee.step)
+      continue;
+    last = &point;
+    const auto place = place_of(frame, light, point);
+    if (place && place->away > 0 && place->away < kReferee.reach) stripe.places.push_back(*place);
+  }
+  std::sort(stripe.places.begin(), stripe.places.end(),
+            [](const Place& a, const Place& b) { return a.away < b.away; });
+}
+
+}  // namespace
+
+PlateView view_of(const ScanCloud& cloud, const std::vector<std::optional<StripeLight>>& lights,
+                  const SeamResult& seam, int plate) {
+  PlateView view;
+  view.plate = seam.faces[plate];
+  const Frame frame = frame_of(seam, view.plate);
+  const double length = (seam.end - seam.start).norm();
+  for (std::size_t k = 0; k < lights.size(); ++k) {
+    if (!lights[k]) continue;
+    StripeOnPlate stripe;
+    stripe.stripe = static_cast<int>(k);
+    if (!set_trace(frame, *lights[k], stripe)) continue;
+    if (stripe.crossing < -kReferee.beyond || stripe.crossing > length + kReferee.beyond) continue;
+    add_places(cloud, frame, *lights[k], stripe);
+    view.stripes.push_back(std::move(stripe));
+  }
+  std::sort(view.stripes.begin(), view.stripes.end(),
+            [](const StripeOnPlate& a, const StripeOnPlate& b) { return a.crossing < b.crossing; });
+  return view;
+}
+
+}  // namespace arcstart::seam_finding

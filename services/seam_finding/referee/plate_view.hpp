@@ -1,0 +1,46 @@
+// What each stripe shows where a plate is claimed: the plate, something behind it, or before it.
+#pragma once
+
+#include <array>
+#include <optional>
+#include <vector>
+
+#include "services/seam_finding/model/scan_cloud.hpp"
+#include "services/seam_finding/model/seam.hpp"
+#include "services/seam_finding/referee/stripe_light.hpp"
+
+namespace arcstart::seam_finding {
+
+enum class Look : char {
+  kOn,       // the light ends on the plate
+  kThrough,  // it goes on to something behind: no opaque plate is there
+  kBefore    // something before it keeps the light
+};
+
+// Where a ray of light meets a plate's plane.
+struct Place {
+  double along = 0;   // the seam from its claimed start; mm
+  double away = 0;    // from the seam, in the plate; mm
+  double height = 0;  // of what was seen over the plate's plane, out of the metal; mm
+  Look look = Look::kOn;
+};
+
+struct StripeOnPlate {
+  int stripe = 0;             // index
+  double crossing = 0;        // along, where the stripe's light crosses the seam; mm
+  double lean = 0;            // along for each away, of the light's trace on the plate
+  std::vector<Place> places;  // by rising away
+};
+
+// Of one plate: the stripes within reach of the seam, in order of their crossings.
+struct PlateView {
+  SeamPlate plate;
+  double width = 0;  // away from the seam, as far as the plate was seen between the ends; mm
+  std::vector<StripeOnPlate> stripes;
+};
+
+// heights as they are, everything kOn: what they mean is told by set_looks().
+PlateView view_of(const ScanCloud& cloud, const std::vector<std::optional<StripeLight>>& lights,
+                  const SeamResult& seam, int plate);
+
+}  // namespace arcstart::seam_finding

@@ -1,0 +1,114 @@
+#include "services/seam_finding/referee/ruling.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <utility>
+
+#include "services/seam_finding/referee/constants.hpp"
+
+namespace arcstart::seam_finding {
+namespace {
+
+using Code = Reason::Code;
+
+// Replaces the covariance's part along the seam.
+void set_variance_along(const Eigen::Vector3d& along, double variance, Eigen::Matrix3d& matrix) {
+  matrix += (variance - along.dot(matrix * along)) * along * along.transpose();
+}
+
+class EndRuling {
+ public:
+  EndRuling(const Examination& examination, bool start, SeamResult& seam)
+      : examination_(examination),
+        bounds_(examination.ends[start ? 0 : 1]),
+        start_(start),
+        seam_(seam) {}
+
+  void rule() {
+    // Between crossing or parallel plates alike: off what is claimed across the seam.
+    for (int j = 0; j < 2; ++j) widen_across(j);
+    if (!bounds_.anchored) return undetermined(Code::kStartNotShown, Code::kEndNotShown, 0);
+    const double deviation = claimed_deviation();
+    const double allowed = std::max(kReferee.allowed, kReferee.deviations * deviation);
+    if (bounds_.least > allowed) return contradicted(bounds_.least);
+    if (bounds_.most < -allowed) return contradicted(bounds_.most);
+    const double farthest = std::max(bounds_.most, -bounds_.least);
+    if (farthest <= allowed) return;
+    if (visibility() == EndVisibility::kOutside || visibility() == EndVisibility::kHidden) return;
+    const double honest = farthest / kReferee.deviations;
+    if (!(honest * kReferee.deviations <= kReferee.determined * examination_.spacing))
+      return undetermined(Code::kStartLooselyBounded, Code::kEndLooselyBounded, farthest);
+    if (seam_.accuracy) set_variance_along(seam_.direction, honest * honest, covariance());
+    remark(Code::kStartBounded, Code::kEndBounded, farthest);
+  }
+
+ private:
+  EndVisibility& visibility() { return start_ ? seam_.start_visibility : seam_.end_visibility; }
+  Eigen::Matrix3d& covariance() { return start_ ? seam_.accuracy->start : seam_.accuracy->end; }
+  void remark(Code start, Code end, double number) {
+    seam_.remarks.push_back({start_ ? start : end, number});
+  }
+
+  double claimed_deviation() {
+    if (!seam_.accuracy) return 0;
+    return std::sqrt(std::max(0.0, seam_.direction.dot(covariance() * seam_.direction)));
+  }
+
+  void contradicted(double by) {
+    SecondPlace& second = start_ ? seam_.start_second : seam_.end_second;
+    const double least = std::max(bounds_.least, -kReferee.beyond),
+                 most = std::min(bounds_.most, kReferee.beyond);
+    second.place = (start_ ? seam_.start : seam_.end) +
+                   (start_ ? -1 : 1) * (least + most) / 2 * seam_.direction;
+    second.weight = 0.5;
+    undetermined(Code::kStartContradicted, Code::kEndContradicted, std::abs(by));
+  }
+
+  void undetermined(Code start, Code end, double number) {
+    visibility() = EndVisibility::kNotDetermined;
+    const double farthest =
+        std::min(kReferee.beyond, std::max(std::abs(bounds_.most), std::abs(bounds_.least)));
+    if (seam_.accuracy)
+      set_variance_along(seam_.direction,
+                         std::max(farthest * farthest, claimed_deviation() * claimed_deviation()),
+                         covariance());
+    remark(start, end, number);
+  }
+
+  void widen_across(int j) {
+    const PlateShape& shape = examination_.shapes[j];
+    if (!shape.known || !seam_.accuracy) return;
+    const double off = shape.height_at_seam(start_ ? 0 : 2 * shape.half);
+    if (std::abs(off) < kReferee.off) return;
+    covariance() += off * off * seam_.normals[j] * seam_.normals[j].transpose();
+  }
+
+  const Examination& examination_;
+  const EndBounds& bounds_;
+  bool start_;
+  SeamResult& seam_;
+};
+
+}  // namespace
+
+void rule(const Examination& examination, SeamResult& seam) {
+  if (examination.stripes == 0) return;
+  seam.checked.stripes = examination.stripes;
+  seam.checked.explained = examination.explained;
+  seam.checked.worst = 0;
+  for (const EndBounds& end : examination.ends)
+    seam.checked.worst = std::max({seam.checked.worst, end.least, -end.most});
+  if (examination.contradiction) {
+    SeamResult refused;
+    refused.reason = examination.contradiction;
+    refused.checked = seam.checked;
+    refused.alternatives = std::move(seam.alternatives);
+    refused.background = std::move(seam.background);
+    seam = std::move(refused);
+    return;
+  }
+  EndRuling(examination, true, seam).rule();
+  EndRuling(examination, false, seam).rule();
+}
+
+}  // namespace arcstart::seam_finding
