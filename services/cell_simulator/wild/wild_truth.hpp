@@ -12,10 +12,11 @@ namespace arcstart::cell_simulator {
 struct WildEnd {
   Eigen::Vector3d point;  // on the seam's line, where the first of the plates ends
   int plate = 0;          // which of the two that is; 2: both within 0.05 mm
-  // The edge of that plate's face there: through a point of it, along it, away from the seam.
-  Eigen::Vector3d edge_point, edge_direction;
-  double edge_play_mm = 0;  // how far the real edge leaves that line: waves
-  double play_mm = 0;       // along the seam: how far off an end may rightly be told, where edge or
+  // The edge of each plate's face there, through its point on the seam, away from the seam, unit;
+  // and how far the real edge leaves that line: waves.
+  std::array<Eigen::Vector3d, 2> edge_points, edge_directions;
+  std::array<double, 2> edge_play_mm{};
+  double play_mm = 0;  // along the seam: how far off an end may rightly be told, where edge or
                        // seam is no sharp line (chamfers, radii, waves, unlike cuts of a groove)
 };
 
