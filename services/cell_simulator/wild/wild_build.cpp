@@ -81,6 +81,21 @@ WildTruth truth_of(const WildScene& wild) {
   return truth;
 }
 
+std::optional<Scene> on_tool(const WildScene& wild) {
+  const WildEvents& events = wild.events;
+  if (events.wire_radius_mm <= 0) return {};
+  constexpr double wire_mm = 15, nozzle_mm = 60, nozzle_radius_mm = 8;
+  // From the tip back past the camera, on the side where the laser's sheet is.
+  const Eigen::Vector3d back = Eigen::Vector3d(0, 0.5, -1).normalized();
+  RigidTransform T_camera_wire = RigidTransform::Identity();
+  T_camera_wire.translation() = Eigen::Vector3d(events.wire_in_camera_mm.data());
+  T_camera_wire.linear() =
+      Eigen::Quaterniond::FromTwoVectors(Eigen::Vector3d::UnitX(), back).toRotationMatrix();
+  TriangleMesh mesh = make_prism(24, events.wire_radius_mm, 0, wire_mm);
+  append(mesh, make_prism(48, nozzle_radius_mm, wire_mm, wire_mm + nozzle_mm));
+  return Scene({{"nozzle", transformed(mesh, T_camera_wire), {0.5, 0.05, 1, 0.2, 0.01}}});
+}
+
 SensorSettings sensor_of(const WildScene& wild, SensorSettings sensor) {
   sensor.lean_deg = wild.scan.lean_deg;
   sensor.ambient_grey += wild.events.sun_grey;

@@ -1,6 +1,9 @@
 // From the description of a scene of the wild to its triangles and its truth.
 #pragma once
 
+#include <optional>
+#include <vector>
+
 #include "common/geometry.hpp"
 #include "services/cell_simulator/image/sensor_settings.hpp"
 #include "services/cell_simulator/scene/scene.hpp"
@@ -18,6 +21,10 @@ WildTruth truth_of(const WildScene& wild);
 
 // Noise and dropouts of each of the objects of build(wild, kind), in their order.
 std::vector<WildSurface> surfaces_of(const WildScene& wild, SceneKind kind);
+
+// What the tool carries before the sensor, in camera: a nozzle with its wire. Nothing where it is
+// out of view.
+std::optional<Scene> on_tool(const WildScene& wild);
 
 // The sensor and the taught work that make taught_tool_pose() run this scan.
 SensorSettings sensor_of(const WildScene& wild, SensorSettings sensor = {});

@@ -15,7 +15,7 @@ namespace arcstart::seam_finding::synthetic {
 
 struct WildScanChoice {
   int downsample = 15;        // M; 1: all points
-  double bend_px = 2;         // centres that depart so far from a straight line are kept; 0: none
+  double bend_px = 0.5;       // centres that depart so far from a straight line are kept; 0: none
   double end_noise_px = 0.2;  // of a segment's end, along the stripe
   double bend_blur_px = 1.5;  // sigma by which extraction rounds a bend
   double noise_factor = 1;    // on the surfaces' noise
@@ -28,7 +28,7 @@ struct WildSight {
   enum class Kind { kOutside, kHidden, kBounded, kCrossed };
   bool in_view = false;  // at least three stripes within three spacings of the end, inside the
                          // seam, show both plates within the seam's reach
-  int stripes = 0;    // how many do
+  int stripes = 0;       // how many do
   int crossings = 0;  // stripes that leave the deciding plate's face over the edge there, and are
                       // seen to
   bool crossed() const { return crossings >= 2; }
@@ -50,7 +50,7 @@ struct WildScan {
   std::vector<profile_t> profiles;        // one a stripe, in order
   std::vector<std::vector<int>> objects;  // of each profile's points: index in Scene::objects(),
                                           // -1: a reflection or a stray point
-  std::vector<WildSeamSight> sights;  // one for each of the truth's seams; of a workpiece scan
+  std::vector<WildSeamSight> sights;      // one for each of the truth's seams; of a workpiece scan
 };
 
 // The same arguments give the same scan. `scene` is build(wild, kind).
