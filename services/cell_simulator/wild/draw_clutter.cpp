@@ -74,6 +74,18 @@ double place_along(const Ground& ground, Draw& draw) {
   return draw.within(ground.begin(), ground.end());
 }
 
+// The same, but over the first plate at that distance from the seam.
+double place_on_first(const Ground& ground, Draw& draw, double across) {
+  constexpr double rim_mm = 4;
+  const WildPlate& plate = ground.work().first;
+  const double away = ground.work().joint == "outside_corner" ? across : -across;
+  const double t = std::min(away, plate.away_mm);
+  const double low = face_edge(plate, Side::begin, t) + rim_mm,
+               high = face_edge(plate, Side::end, t) - rim_mm;
+  const double along = place_along(ground, draw);
+  return low < high ? std::clamp(along, low, high) : (low + high) / 2;
+}
+
 WildSolid draw_bar(Draw& draw) {
   WildSolid bar;
   bar.kind = draw.chance(0.6) ? "round" : "hexagon";
@@ -131,10 +143,11 @@ void add_block_on_base(const Ground& ground, Draw& draw, std::vector<WildSolid>&
   block.size_mm = {draw.within(10, 30), draw.within(10, 30), draw.within(6, 40)};
   block.surface = draw_surface(draw);
   const double aside = 0.5 * std::hypot(block.size_mm[0], block.size_mm[1]) + apart_mm;
-  Vector3d at(place_along(ground, draw), -aside - draw.within(1, 30), block.size_mm[2] / 2);
+  Vector3d at(0, -aside - draw.within(1, 30), block.size_mm[2] / 2);
   if (ground.fillet() && ground.work().angle_deg < 90)  // the upright leans over it
     at.y() -= block.size_mm[2] * std::tan((90 - ground.work().angle_deg) * kDegree);
   if (ground.work().joint == "outside_corner") at.y() = -at.y();
+  at.x() = place_on_first(ground, draw, at.y());
   set_pose(block, ground.base(at), ground.turned() * about_z(draw.within(0, 90)));
   solids.push_back(block);
 }
@@ -142,10 +155,10 @@ void add_block_on_base(const Ground& ground, Draw& draw, std::vector<WildSolid>&
 // A jaw, a screw and an arm, to within 10 mm of the seam.
 void add_clamp(const Ground& ground, Draw& draw, std::vector<WildSolid>& solids) {
   const double side = ground.work().joint == "outside_corner" ? 1 : -1;
-  const double along = place_along(ground, draw);
   double near = draw.within(2, 15);
   if (ground.fillet() && ground.work().angle_deg < 90)
     near += 80 * std::tan((90 - ground.work().angle_deg) * kDegree);
+  const double along = place_on_first(ground, draw, side * (near + 13));
   WildSolid jaw, screw, arm;
   jaw.surface = screw.surface = arm.surface = draw_surface(draw);
   jaw.size_mm = {16, 26, 14};
@@ -169,7 +182,7 @@ void add_nut(const Ground& ground, Draw& draw, std::vector<WildSolid>& solids) {
   if (ground.fillet() && ground.work().angle_deg < 90)
     across += nut.size_mm[0] * std::tan((90 - ground.work().angle_deg) * kDegree);
   if (ground.work().joint != "outside_corner") across = -across;
-  set_pose(nut, ground.base({place_along(ground, draw), across, nut.size_mm[0] / 2}),
+  set_pose(nut, ground.base({place_on_first(ground, draw, across), across, nut.size_mm[0] / 2}),
            ground.turned() * about_z(draw.within(0, 60)) *
                AngleAxisd(90 * kDegree, Vector3d::UnitY()).toRotationMatrix());
   solids.push_back(nut);

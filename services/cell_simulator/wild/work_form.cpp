@@ -34,7 +34,8 @@ Vector3d bent(const WildWork& work, const Vector3d& p) {
 
 TriangleMesh bent(const WildWork& work, const TriangleMesh& mesh) {
   if (work.bow_mm == 0) return mesh;
-  TriangleMesh result = sliced(mesh, slice_mm);
+  constexpr double chord_error_mm = 0.005;
+  TriangleMesh result = sliced(mesh, std::sqrt(8 * chord_error_mm * std::abs(radius_of(work))));
   for (Vector3d& corner : result.corners) corner = bent(work, corner);
   return result;
 }
@@ -42,6 +43,9 @@ TriangleMesh bent(const WildWork& work, const TriangleMesh& mesh) {
 TriangleMesh plate_mesh(const WildPlate& plate, const PlateFrame& frame) {
   TriangleMesh mesh = make_plate_form(plate, frame.edge);
   for (Vector3d& corner : mesh.corners) corner = frame.at(corner);
+  // A frame may be a mirror.
+  if (frame.along.cross(frame.away).dot(frame.depth) < 0)
+    for (auto& triangle : mesh.triangles) std::swap(triangle[1], triangle[2]);
   return mesh;
 }
 

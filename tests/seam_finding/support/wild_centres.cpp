@@ -115,12 +115,25 @@ bool at_border(const Vector2d& p, const WildExtraction& extraction) {
          p.y() > extraction.height - 1 - near_px;
 }
 
+// Columns in which something lit directly is seen: there extraction takes a ghost for what it is.
+std::vector<char> direct_columns(const std::vector<WildPiece>& pieces, int width) {
+  std::vector<char> direct(width, 0);
+  for (const WildPiece& piece : pieces) {
+    if (piece.ghost) continue;
+    const auto [low, high] = std::minmax(piece.begin_px.x(), piece.end_px.x());
+    for (int u = std::max(0, static_cast<int>(low)); u <= std::min(width - 1.0, high); ++u)
+      direct[u] = 1;
+  }
+  return direct;
+}
+
 }  // namespace
 
 std::vector<WildCentre> centres_of(const std::vector<WildPiece>& pieces,
                                    const std::vector<WildSurface>& surfaces,
                                    const WildExtraction& extraction, RandomStream& random) {
   std::vector<WildCentre> centres;
+  const std::vector<char> direct = direct_columns(pieces, extraction.width);
   int segment = 0;
   for (const Chain& chain : chains_of(pieces)) {
     if (chain.objects.empty() || chain.arc.back() < extraction.least_length_px) continue;
@@ -148,6 +161,8 @@ std::vector<WildCentre> centres_of(const std::vector<WildPiece>& pieces,
       if (surface.dropout_share > 0 && to_drop == 0 &&
           random.uniform() < surface.dropout_share / run_px)
         to_drop = 1 + static_cast<int>(-run_px * std::log(1 - random.uniform()));
+      const int column = static_cast<int>(chain.corners[place.piece].x());
+      if (chain.ghost && column >= 0 && column < extraction.width && direct[column]) to_drop = 1;
       if (to_drop > 0) {
         --to_drop;
         if (++dropped > lost_px) close();

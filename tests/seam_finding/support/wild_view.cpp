@@ -11,7 +11,8 @@ using Eigen::Vector2d, Eigen::Vector3d;
 
 constexpr double step_px = 8;          // between places at which it is asked what hides a line
 constexpr double clearance_mm = 0.02;  // what is nearer to a lit point than this does not hide it
-constexpr double margin_px = 2;        // beyond the image
+constexpr double least_mirror_mm = 1.5;
+constexpr double margin_px = 2;  // beyond the image
 
 class View {
  public:
@@ -123,13 +124,18 @@ std::vector<WildPiece> seen_pieces(const Scene& scene, const TrueSensor& sensor,
                                    double ghost_share) {
   const View view(scene, sensor, T_base_tool, on_tool);
   std::vector<WildPiece> pieces;
-  const std::vector<LitLine> lines = cast(scene, view.sheet());
+  std::vector<LitLine> lines = cast(scene, view.sheet());
   for (const LitLine& line : lines) view.add(line, pieces);
   if (on_tool)
     for (const LitLine& line : cast(*on_tool, view.sheet_in_camera()))
       view.add_on_tool(line, pieces);
-  if (ghost_share < 1)
+  if (ghost_share < 1) {
+    // Flat faces throw ghosts that can be taken for stripes; what round things throw is scattered.
+    std::erase_if(lines, [](const LitLine& line) {
+      return (line.end - line.begin).norm() < least_mirror_mm;
+    });
     for (const LitLine& line : cast_mirrored(scene, lines, ghost_share)) view.add(line, pieces);
+  }
   return pieces;
 }
 
