@@ -6,6 +6,7 @@
 
 #include "common/options.hpp"
 #include "tests/bench/seam/seam_scenes.hpp"
+#include "tests/bench/seam/wild/wild_bench.hpp"
 
 int main(int argc, char** argv) {
   arcstart::Program options(
@@ -14,7 +15,7 @@ int main(int argc, char** argv) {
   int rendered = 25, profiles = 100, backgrounds = 5;
   int first = 1;
   std::string row;
-  bool no_speed = false;
+  bool no_speed = false, wild = false, no_referee = false;
   options.option("--json", json_path, "Where the figures go, flat JSON");
   options.option("--seeds", rendered, "Rendered scans a row, twice as many with a tool")
       .show_default();
@@ -25,10 +26,17 @@ int main(int argc, char** argv) {
   options.option("--first-seed", first, "Of each row; those from 1 on are reported").show_default();
   options.option("--row", row, "Only the rows of this name, as in the table before the dot");
   options.flag("--no-speed", no_speed, "Leave the times out");
+  options.flag("--wild", wild, "Scenes of the wild alone: rows JOINT.wild and JOINT.wild.img");
+  options.flag("--no-referee", no_referee, "Their answers as they were found, before the referee");
   if (const auto code = options.parse(argc, argv)) return *code;
   spdlog::set_level(spdlog::level::err);  // the tables alone
   nlohmann::json json;
   const arcstart::SeedsOfRow wanted{row, first};
+  if (wild) {
+    arcstart::bench_wild({profiles, wanted, !no_referee}, json);
+    rendered = profiles = backgrounds = 0;
+    no_speed = true;
+  }
   if (rendered > 0) arcstart::bench_rendered(rendered, wanted, json);
   if (profiles > 0) arcstart::bench_profiles(profiles, wanted, json);
   if (backgrounds > 0) arcstart::bench_background(backgrounds, json);

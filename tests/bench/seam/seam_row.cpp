@@ -5,9 +5,9 @@
 #include <Eigen/Core>
 #include <algorithm>
 #include <cmath>
-#include <numeric>
 
 #include "services/command_line/output/seam_error.hpp"
+#include "tests/bench/seam/figures.hpp"
 
 namespace arcstart {
 
@@ -15,21 +15,6 @@ using namespace command_line;
 namespace {
 
 constexpr double kSilent = 1;  // mm
-
-double mean(const std::vector<double>& values) {
-  return values.empty() ? 0
-                        : std::accumulate(values.begin(), values.end(), 0.0) /
-                              static_cast<double>(values.size());
-}
-
-// Nearest rank.
-double percentile(std::vector<double> values, double share) {
-  if (values.empty()) return 0;
-  std::sort(values.begin(), values.end());
-  const auto rank = static_cast<std::size_t>(
-      std::max(1.0, std::ceil(share * static_cast<double>(values.size()))));
-  return values[rank - 1];
-}
 
 }  // namespace
 
