@@ -1,0 +1,31 @@
+// A workpiece: its parts as triangles, and the truth about its seams; in the work's frame until it
+// is placed.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "common/geometry.hpp"
+#include "services/cell_simulator/scene/triangle_mesh.hpp"
+#include "services/cell_simulator/wild/wild_scene.hpp"
+#include "services/cell_simulator/wild/wild_truth.hpp"
+
+namespace arcstart::cell_simulator {
+
+struct WorkPart {
+  std::string name;
+  TriangleMesh mesh;
+  WildSurface surface;
+};
+
+// In base. The first plate comes first, then the second where there is one.
+std::vector<WorkPart> parts_of(const WildWork& work);
+
+// Of this work alone, its plates' indices counted from 0; empty of a wrong part.
+std::vector<WildSeam> seams_of(const WildWork& work);
+
+// A point of the flat work in base: bent as the work is, and placed.
+Eigen::Vector3d on_work(const WildWork& work, const RigidTransform& T_base_work,
+                        const Eigen::Vector3d& point);
+
+}  // namespace arcstart::cell_simulator
