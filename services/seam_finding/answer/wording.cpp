@@ -107,6 +107,8 @@ std::string about_no_seam(const Reason& reason) {
           "the stripes contradict the seam that was found: {:.0f} of {:.0f} along it show both "
           "plates",
           reason.number, reason.of);
+    case Code::kPlateNotShown:
+      return "the stripes contradict the seam that was found: they do not show one of its plates";
     case Code::kPlateTurned:
       return fmt::format(
           "the stripes contradict the seam that was found: a plate is turned by {:.2f} deg to it",

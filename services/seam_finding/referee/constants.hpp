@@ -27,8 +27,11 @@ struct RefereeConstants {
   // mm; of a plate away from where it begins, what its shape is taken from - bench.
   double shape_width = 15;
 
-  // Tilt against the plane claimed, at most; rad - half of what must be noticed, 1 degree.
-  double turned = 0.0087;
+  // Places of a stripe in a row that are not on a plate: it has ended there - bench.
+  int others_in_a_row = 2;
+
+  // Tilt against the plane claimed, at most; rad - 0.6 of what must be noticed, 1 degree.
+  double turned = 0.0105;
   // mm; a plate is not that of a round thing whose radius is less - the largest hand tool.
   double round = 60;
   // mm; a strip narrower than this may be that of a round thing - bench.
@@ -42,6 +45,10 @@ struct RefereeConstants {
   double steepest = 0.6, steepness_step = 0.005;
   // mm; a place of an edge is off by so much, at most - 0.3 px along the stripe, and the noise.
   double place = 0.2;
+  // mm; of a plate's width in a stripe, that shows nothing by accident - bench.
+  double dark = 2;
+  // Such a stripe's weight beside one that shows what lies behind - bench.
+  double dark_weight = 0.4;
   // Of the stripes that speak of an edge, those that may contradict it - bench.
   double contradicting = 0.2;
   // Share of a stripe's places on a plate that may be on the wrong side of its edge - bench.

@@ -9,6 +9,7 @@
 namespace arcstart::seam_finding {
 namespace {
 
+constexpr double kSame = 1e-6;  // sums of weights that differ less are the same
 constexpr double kInfinite = std::numeric_limits<double>::infinity();
 
 // A place that the plate must reach, or must not: outward from the claimed end and away from the
@@ -18,10 +19,11 @@ struct Mark {
 };
 
 // What a stripe says of the plate's edge: a straight edge has all of `on` on its inner side and all
-// of `off` on its outer one. Of each the extremes are enough.
+// of `off` on its outer one. Of each the extremes are enough. `dark`: where the plate would be lit
+// and nothing was seen, though nothing stands before it; it says less than what lies behind.
 struct Evidence {
-  std::vector<Mark> on, off;
-  bool crosses() const { return !on.empty() && !off.empty(); }
+  std::vector<Mark> on, off, dark;
+  bool crosses() const { return !on.empty() && !(off.empty() && dark.empty()); }
 };
 
 struct Count {
@@ -40,44 +42,96 @@ Count count_beside(const PlateView& view, const StripeOnPlate& stripe, int& befo
   return count;
 }
 
-// The split of the places by `away` into on and off that fits best: off on one side, on on the
-// other, or one alone. Nothing where none fits.
-Evidence evidence_of(const StripeOnPlate& stripe, double from, double to, double end,
-                     double outward) {
-  std::vector<const Place*> known;
-  for (const Place& place : stripe.places)
-    if (place.away >= from && place.away <= to && place.look != Look::kBefore)
-      known.push_back(&place);
-  Evidence evidence;
-  const int all = static_cast<int>(known.size());
-  if (all == 0) return evidence;
-  // With the first i on and the others off, and the other way round.
-  int total_on = 0;
-  for (const Place* place : known) total_on += place->look == Look::kOn;
-  int best = all + 1, split = 0;
+using Known = std::vector<const Place*>;
+
+// The places by `away` are on before the split and off behind it, or the other way round.
+struct Split {
+  int at = 0, wrong = 0;
   bool on_first = true;
+};
+
+Split best_split(const Known& known) {
+  const int all = static_cast<int>(known.size());
+  int total = 0;
+  for (const Place* place : known) total += place->look == Look::kOn;
+  Split best;
+  best.wrong = all + 1;
   int on = 0;
   for (int i = 0; i <= all; ++i) {
-    const int wrong = (i - on) + (total_on - on);  // off before i, on behind
-    if (wrong < best) best = wrong, split = i, on_first = true;
-    if (all - wrong < best) best = all - wrong, split = i, on_first = false;
+    const int wrong = (i - on) + (total - on);
+    if (wrong < best.wrong) best = {i, wrong, true};
+    if (all - wrong < best.wrong) best = {i, all - wrong, false};
     if (i < all) on += known[i]->look == Look::kOn;
   }
-  if (best > kReferee.misfit * all) return evidence;
-  const auto add = [&](std::vector<Mark>& marks, int begin, int behind, Look look) {
+  return best;
+}
+
+// What one stripe shows between two distances from the seam.
+class StripeEvidence {
+ public:
+  StripeEvidence(const StripeOnPlate& stripe, double from, double to, double end, double outward)
+      : stripe_(stripe), from_(from), to_(to), end_(end), outward_(outward) {
+    for (const Place& place : stripe.places) {
+      if (place.away < from || place.away > to) continue;
+      if (place.look == Look::kBefore)
+        nothing_before_ = false;
+      else
+        known_.push_back(&place);
+    }
+  }
+
+  // after_plate: the stripe before it, from inside, shows the plate, so that this one would.
+  Evidence take(bool after_plate) const {
+    Evidence evidence;
+    if (known_.empty()) {
+      if (nothing_before_ && after_plate) add_dark(from_, to_, evidence);
+      return evidence;
+    }
+    const Split split = best_split(known_);
+    const int all = static_cast<int>(known_.size());
+    if (split.wrong > kReferee.misfit * all) return evidence;
+    add(split.on_first ? 0 : split.at, split.on_first ? split.at : all, Look::kOn, evidence.on);
+    add(split.on_first ? split.at : 0, split.on_first ? all : split.at, Look::kThrough,
+        evidence.off);
+    if (nothing_before_) add_dark_beside(evidence);
+    return evidence;
+  }
+
+ private:
+  Mark mark(double away) const {
+    return {outward_ * (stripe_.crossing + stripe_.lean * away - end_), away};
+  }
+
+  void add(int begin, int behind, Look look, std::vector<Mark>& marks) const {
     const Place *first = nullptr, *last = nullptr;
     for (int i = begin; i < behind; ++i) {
-      if (known[i]->look != look) continue;
-      if (!first) first = known[i];
-      last = known[i];
+      if (known_[i]->look != look) continue;
+      if (!first) first = known_[i];
+      last = known_[i];
     }
     for (const Place* place : {first, last})
-      if (place) marks.push_back({outward * (place->along - end), place->away});
-  };
-  add(evidence.on, on_first ? 0 : split, on_first ? split : all, Look::kOn);
-  add(evidence.off, on_first ? split : 0, on_first ? all : split, Look::kThrough);
-  return evidence;
-}
+      if (place) marks.push_back({outward_ * (place->along - end_), place->away});
+  }
+
+  void add_dark(double from, double to, Evidence& evidence) const {
+    if (to - from < kReferee.dark) return;
+    evidence.dark.push_back(mark(from));
+    evidence.dark.push_back(mark(to));
+  }
+
+  // Nothing was seen on the side to which the plate's places end.
+  void add_dark_beside(Evidence& evidence) const {
+    if (evidence.on.empty()) return;
+    const double first = known_.front()->away, last = known_.back()->away;
+    add_dark(last + kReferee.dark, to_, evidence);
+    add_dark(from_, first - kReferee.dark, evidence);
+  }
+
+  const StripeOnPlate& stripe_;
+  double from_, to_, end_, outward_;
+  Known known_;
+  bool nothing_before_ = true;
+};
 
 struct Interval {
   double least, most;
@@ -85,7 +139,7 @@ struct Interval {
 
 struct EdgeFit {
   Interval foot{-kInfinite, kInfinite};  // where the edge meets the seam, outward; mm
-  int contradicting = 0;                 // stripes that no edge can satisfy
+  double contradicting = 0;              // stripes that it cannot satisfy; dark ones count less
   int crossings = 0;
 };
 
@@ -94,21 +148,22 @@ struct EdgeFit {
 struct Limit {
   double at;
   bool least;
+  double weight;
 };
-int narrow(std::vector<Limit>& limits, Interval& result) {
+double narrow(std::vector<Limit>& limits, Interval& result) {
   std::sort(limits.begin(), limits.end(), [](const Limit& a, const Limit& b) {
     return a.at != b.at ? a.at < b.at : a.least > b.least;
   });
-  int wrong = 0;
-  for (const Limit& limit : limits) wrong += limit.least;  // at minus infinity
-  int best = wrong;
+  double wrong = 0;  // at minus infinity
+  for (const Limit& limit : limits) wrong += limit.least ? limit.weight : 0;
+  double best = wrong;
   result = {-kInfinite, limits.empty() ? kInfinite : limits.front().at};
   for (std::size_t i = 0; i < limits.size(); ++i) {
-    wrong += limits[i].least ? -1 : 1;
+    wrong += limits[i].least ? -limits[i].weight : limits[i].weight;
     const double next = i + 1 < limits.size() ? limits[i + 1].at : kInfinite;
-    if (wrong < best)
+    if (wrong < best - kSame)
       best = wrong, result = {limits[i].at, next};
-    else if (wrong == best)
+    else if (wrong < best + kSame)
       result.most = std::max(result.most, next);
   }
   return best;
@@ -117,25 +172,28 @@ int narrow(std::vector<Limit>& limits, Interval& result) {
 EdgeFit fit_edge(const std::vector<Evidence>& all) {
   EdgeFit fit;
   for (const Evidence& evidence : all) fit.crossings += evidence.crosses();
-  fit.contradicting = static_cast<int>(all.size()) + 1;
+  fit.contradicting = kInfinite;
   std::vector<Limit> limits;
   const int steps = static_cast<int>(std::lround(kReferee.steepest / kReferee.steepness_step));
   for (int step = -steps; step <= steps; ++step) {
     const double slope = step * kReferee.steepness_step;
     limits.clear();
     for (const Evidence& evidence : all) {
-      double least = -kInfinite, most = kInfinite;
+      double least = -kInfinite, most = kInfinite, dark = kInfinite;
       for (const Mark& mark : evidence.on) least = std::max(least, mark.out - slope * mark.away);
       for (const Mark& mark : evidence.off) most = std::min(most, mark.out - slope * mark.away);
-      if (std::isfinite(least)) limits.push_back({least - kReferee.place, true});
-      if (std::isfinite(most)) limits.push_back({most + kReferee.place, false});
+      for (const Mark& mark : evidence.dark) dark = std::min(dark, mark.out - slope * mark.away);
+      if (std::isfinite(least)) limits.push_back({least - kReferee.place, true, 1});
+      if (std::isfinite(most)) limits.push_back({most + kReferee.place, false, 1});
+      if (std::isfinite(dark))
+        limits.push_back({dark + kReferee.place, false, kReferee.dark_weight});
     }
     Interval foot{};
-    const int contradicting = narrow(limits, foot);
-    if (contradicting < fit.contradicting) {
+    const double contradicting = narrow(limits, foot);
+    if (contradicting < fit.contradicting - kSame) {
       fit.contradicting = contradicting;
       fit.foot = foot;
-    } else if (contradicting == fit.contradicting) {
+    } else if (contradicting < fit.contradicting + kSame) {
       fit.foot.least = std::min(fit.foot.least, foot.least);
       fit.foot.most = std::max(fit.foot.most, foot.most);
     }
@@ -179,8 +237,12 @@ EdgeFit fit_within(const PlateView& view, const std::vector<const StripeOnPlate*
                    double width, double end, double outward) {
   const double from = view.plate.inset + kReferee.beside_seam;
   std::vector<Evidence> evidence;
-  for (const StripeOnPlate* stripe : stripes)
-    evidence.push_back(evidence_of(*stripe, from, width, end, outward));
+  bool after_plate = false;
+  for (const StripeOnPlate* stripe : stripes) {
+    evidence.push_back(StripeEvidence(*stripe, from, width, end, outward).take(after_plate));
+    if (!evidence.back().on.empty()) after_plate = true;
+    if (at_seam(view, *stripe) == AtSeam::kHidden) after_plate = false;
+  }
   return fit_edge(evidence);
 }
 

@@ -39,9 +39,9 @@ double explained_by(const std::array<PlateView, 2>& views, double length) {
 
 // A plate that is no plane, or lies otherwise than is claimed.
 Reason contradiction_of(const PlateShape& shape) {
-  if (!shape.known) return {};
+  if (!shape.known) return {Code::kPlateNotShown};
   const double sure = kReferee.deviations;
-  if (std::abs(shape.tilt) > kReferee.turned + sure * shape.tilt_deviation)
+  if (std::abs(shape.tilt) > std::max(kReferee.turned, sure * shape.tilt_deviation))
     return {Code::kPlateTurned, shape.tilt};
   const bool round =
       -shape.curvature > 1 / kReferee.round && -shape.curvature > sure * shape.curvature_deviation;

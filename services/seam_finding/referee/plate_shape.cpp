@@ -32,14 +32,17 @@ void visit_places(const PlateView& view, double length, const Scale& scale, Visi
         visitor(place);
 }
 
+// Of most stripes between the ends: a quarter may be cut short by what lies before the plate.
 double width_of(const PlateView& view, double length, double tolerance) {
   std::vector<double> widths;
   for (const StripeOnPlate& stripe : view.stripes) {
     double reached = -1;
+    int others = 0;  // in a row
     for (const Place& place : stripe.places) {
-      if (place.along < 0 || place.along > length || place.look != Look::kOn) continue;
-      if (reached >= 0 && place.away > reached + 3 * kReferee.bend) break;
-      reached = place.away;
+      if (place.along < 0 || place.along > length) continue;
+      others = place.look == Look::kOn ? 0 : others + 1;
+      if (others == kReferee.others_in_a_row && reached >= 0) break;
+      if (place.look == Look::kOn) reached = place.away;
     }
     if (reached > 0) widths.push_back(reached);
   }

@@ -71,6 +71,8 @@ std::int16_t refusal_code(const Reason& reason) {
       return seam_t::SURFACE_TOO_ROUGH;
     case Code::kSeamNotShown:
       return seam_t::SEAM_NOT_SHOWN;
+    case Code::kPlateNotShown:
+      return seam_t::PLATE_NOT_SHOWN;
     case Code::kPlateTurned:
       return seam_t::PLATE_TURNED;
     case Code::kPlateRound:

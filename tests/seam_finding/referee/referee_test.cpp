@@ -69,7 +69,7 @@ Scan scan_of(const synthetic::SceneChoice& choice, std::uint64_t seed) {
 TEST_CASE("a true answer is upheld") {
   for (std::uint64_t seed = 301; seed < 313; ++seed) {
     const double overhang = static_cast<double>(seed % 3) * 8 - 8;
-    const Scan scan = scan_of({.tool = true, .base_overhang = overhang}, seed);
+    const Scan scan = scan_of({.base_overhang = overhang}, seed);
     const SeamResult seam = ruled(scan.cloud, truth_of(scan.scene));
     INFO("seed " << seed);
     CHECK(seam.verdict == Verdict::kFound);
