@@ -15,7 +15,7 @@ int main(int argc, char** argv) {
   int rendered = 25, profiles = 100, backgrounds = 5;
   int first = 1;
   std::string row;
-  bool no_speed = false, wild = false, no_referee = false;
+  bool no_speed = false, wild = false, no_referee = false, falsified = false;
   options.option("--json", json_path, "Where the figures go, flat JSON");
   options.option("--seeds", rendered, "Rendered scans a row, twice as many with a tool")
       .show_default();
@@ -28,12 +28,16 @@ int main(int argc, char** argv) {
   options.flag("--no-speed", no_speed, "Leave the times out");
   options.flag("--wild", wild, "Scenes of the wild alone: rows JOINT.wild and JOINT.wild.img");
   options.flag("--no-referee", no_referee, "Their answers as they were found, before the referee");
+  options.flag("--falsified", falsified,
+               "Of scenes of the wild: right answers made wrong on purpose, before the referee");
   if (const auto code = options.parse(argc, argv)) return *code;
   spdlog::set_level(spdlog::level::err);  // the tables alone
   nlohmann::json json;
   const arcstart::SeedsOfRow wanted{row, first};
-  if (wild) {
-    arcstart::bench_wild({profiles, wanted, !no_referee}, json);
+  const arcstart::WildChoice scenes{profiles, wanted, !no_referee};
+  if (wild) arcstart::bench_wild(scenes, json);
+  if (falsified) arcstart::bench_falsified(scenes, json);
+  if (wild || falsified) {
     rendered = profiles = backgrounds = 0;
     no_speed = true;
   }

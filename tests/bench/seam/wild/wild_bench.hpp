@@ -1,8 +1,11 @@
 // Scenes of the wild: scripts/bench seam --wild.
 #pragma once
 
+#include <functional>
 #include <nlohmann/json.hpp>
+#include <string>
 
+#include "services/cell_simulator/wild/wild_scene.hpp"
 #include "tests/bench/seam/seam_scenes.hpp"
 
 namespace arcstart {
@@ -15,5 +18,12 @@ struct WildChoice {
 
 // Rows JOINT.wild: closed form through seam finding.
 void bench_wild(const WildChoice& choice, nlohmann::json& json);
+
+// Rows falsified.* and true.*: what the referee makes of wrong and of right answers.
+void bench_falsified(const WildChoice& choice, nlohmann::json& json);
+
+// The scenes of a joint. One that cannot be is told, and left out: draw or `use` throws SceneError.
+void for_each_scene(const std::string& joint, const WildChoice& choice,
+                    const std::function<void(const cell_simulator::WildScene&, int seed)>& use);
 
 }  // namespace arcstart
