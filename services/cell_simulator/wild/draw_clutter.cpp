@@ -1,6 +1,7 @@
 #include <Eigen/Geometry>
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 #include "common/geometry.hpp"
 #include "services/cell_simulator/scene/triangle_hierarchy.hpp"
@@ -125,7 +126,7 @@ void add_bar_across(const Ground& ground, Draw& draw, std::vector<WildSolid>& so
 
 // In the corner, along the seam, touching both plates.
 void add_bar_in_corner(const Ground& ground, Draw& draw, std::vector<WildSolid>& solids) {
-  if (!ground.fillet()) return;
+  if (!ground.fillet()) return add_bar_across(ground, draw, solids);
   WildSolid bar = draw_bar(draw);
   bar.kind = "round";
   bar.size_mm[0] = draw.within(20, 70);
@@ -265,7 +266,24 @@ void add_cable(const Ground& ground, Draw& draw, std::vector<WildSolid>& solids)
     double sum = 0, number = 0;
     for (int k = std::max(0, i - reach); k <= std::min(count - 1, i + reach); ++k)
       sum += top[k], ++number;
-    cable.points_mm.push_back({way[i].x(), way[i].y(), sum / number + radius});
+    cable.points_mm.push_back(
+        {way[i].x(), way[i].y(), std::max(sum / number, ground_height[i]) + radius + apart_mm});
+  }
+  // Not through the metal at the seam's ends: lifted there until it is clear.
+  for (const double along : {ground.begin(), ground.end()}) {
+    const Vector3d end = ground.base({along, 0, 0});
+    const auto nearest = [&] {
+      double least = std::numeric_limits<double>::infinity();
+      for (std::size_t i = 0; i + 1 < cable.points_mm.size(); ++i) {
+        const Vector3d a(cable.points_mm[i].data()), b(cable.points_mm[i + 1].data());
+        const double share = std::clamp((end - a).dot(b - a) / (b - a).squaredNorm(), 0.0, 1.0);
+        least = std::min(least, (a + share * (b - a) - end).norm());
+      }
+      return least;
+    };
+    while (nearest() < radius + apart_mm)
+      for (auto& p : cable.points_mm)
+        if ((Vector3d(p.data()) - end).norm() < 4 * step_mm) p[2] += apart_mm;
   }
   solids.push_back(cable);
 }

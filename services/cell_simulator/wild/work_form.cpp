@@ -236,9 +236,11 @@ std::vector<WildSeam> seams_of(const WildWork& work) {
     other.second.begin.at_mm = rib.begin_mm;
     other.second.end.at_mm = rib.end_mm;
     // The base plate's ends on that line.
-    other.first.begin = {face_edge(work.first, Side::begin, -rib.across_mm),
-                         work.first.begin.turn_deg};
-    other.first.end = {face_edge(work.first, Side::end, -rib.across_mm), work.first.end.turn_deg};
+    for (const Side side : {Side::begin, Side::end}) {
+      WildCut& cut = side == Side::begin ? other.first.begin : other.first.end;
+      cut.at_mm += face_edge(work.first, side, -rib.across_mm) - face_edge(work.first, side, 0);
+      cut.wave_phase_deg -= 360 * rib.across_mm / cut.wave_pitch_mm;
+    }
     PlateFrame base = first_frame(other), upright = second_frame(other);
     base.origin.y() += rib.across_mm;
     upright.origin.y() += rib.across_mm;
