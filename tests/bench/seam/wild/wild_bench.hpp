@@ -22,6 +22,16 @@ void bench_wild(const WildChoice& choice, nlohmann::json& json);
 // Rows falsified.* and true.*: what the referee makes of wrong and of right answers.
 void bench_falsified(const WildChoice& choice, nlohmann::json& json);
 
+// Rows wrong_part.*: each joint asked of so many scenes with clutter of each other joint.
+void bench_pairs(const WildChoice& choice, int scenes, nlohmann::json& json);
+
+// Draws scenes until the time is over, and keeps in build/bench/hunt/ each that is wrong in
+// silence, made as plain as it can be, and the worst of the others.
+void hunt(const WildChoice& choice, double minutes, nlohmann::json& json);
+
+// Prints the answers to a scene that was kept, and their errors.
+void show_scene(const std::string& path);
+
 // The scenes of a joint. One that cannot be is told, and left out: draw or `use` throws SceneError.
 void for_each_scene(const std::string& joint, const WildChoice& choice,
                     const std::function<void(const cell_simulator::WildScene&, int seed)>& use);
