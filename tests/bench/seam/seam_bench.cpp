@@ -30,7 +30,8 @@ int main(int argc, char** argv) {
   options.option("--row", row, "Only the rows of this name, as in the table before the dot");
   options.flag("--no-speed", no_speed, "Leave the times out");
   options.flag("--wild", wild, "Scenes of the wild alone: rows JOINT.wild and JOINT.wild.img");
-  options.flag("--no-referee", no_referee, "Their answers as they were found, before the referee");
+  options.flag("--no-referee", no_referee,
+               "Their answers as they were found, before the referee; not of rendered images");
   options.flag("--falsified", falsified,
                "Of scenes of the wild: right answers made wrong on purpose, before the referee");
   options.flag("--pairs", pairs,
@@ -43,9 +44,10 @@ int main(int argc, char** argv) {
   nlohmann::json json;
   const arcstart::SeedsOfRow wanted{row, first};
   if (wild || falsified || pairs || minutes > 0 || !scene.empty()) {
-    const arcstart::WildChoice scenes{profiles, wanted, !no_referee};
+    const arcstart::WildChoice scenes{profiles, rendered, wanted, !no_referee};
     if (!scene.empty()) arcstart::show_scene(scene);
-    if (wild && !pairs) arcstart::bench_wild(scenes, json);
+    if (wild && !pairs && profiles > 0) arcstart::bench_wild(scenes, json);
+    if (wild && !pairs && rendered > 0 && !no_referee) arcstart::bench_rendered_wild(scenes, json);
     if (falsified) arcstart::bench_falsified(scenes, json);
     if (pairs) arcstart::bench_pairs(scenes, scenes_a_pair, json);
     if (minutes > 0) arcstart::hunt(scenes, minutes, json);

@@ -199,8 +199,12 @@ void SimulatedScan::run(cell_simulator::SceneKind kind) {
       (end.translation() - begin.translation()).norm() / settings_.speed_mm_s;  // s
   // Half a second of rest on either side of the search; the trigger's phase by seed and scan.
   std::mt19937_64 random(seed_ * 2 + (kind == cell_simulator::SceneKind::workpiece));
-  const double phase =
-      std::uniform_real_distribution<double>(0, 1 / settings_.frames_per_second)(random);
+  double phase = std::uniform_real_distribution<double>(0, 1 / settings_.frames_per_second)(random);
+  if (settings_.wild && kind == cell_simulator::SceneKind::workpiece) {
+    // Its stripes fall where those of the scan in closed form do; the motion begins after 0.5 s.
+    const double frames = settings_.wild->scan.phase_share + 0.5 * settings_.frames_per_second;
+    phase = (frames - std::floor(frames)) / settings_.frames_per_second;
+  }
   scan_id_ = clock_ += 10'000'000;
   const auto pose_at = [&](double seconds) {
     return interpolate(begin, end, std::clamp((seconds - 0.5) / duration, 0.0, 1.0));

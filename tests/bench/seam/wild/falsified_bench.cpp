@@ -161,9 +161,9 @@ void bench_falsified(const WildChoice& choice, nlohmann::json& json) {
     for (const std::string joint : cell_simulator::wild_joints) {
       if (!choice.wanted.makes(joint)) continue;
       FalsifiedRow row(cell.name, joint);
-      for_each_scene(joint, choice, [&](const WildScene& scene, int seed) {
-        row.add(WildCase(in_cell(scene, cell)), seed);
-      });
+      for_each_scene(
+          joint, choice.wanted.first, choice.profile_seeds,
+          [&](const WildScene& scene, int seed) { row.add(WildCase(in_cell(scene, cell)), seed); });
       row.finish(json);
       all.add(row);
     }

@@ -9,19 +9,9 @@
 #include "tests/bench/seam/wild/wild_row.hpp"
 
 namespace arcstart {
-namespace {
-
-WildFacts facts_of(const WildCase& wild, int seed) {
-  return {seed, wild.truth().wrong, wild.scene().scan.pitch_mm, wild.sights(),
-          tags_of(wild.scene(), wild.truth(), wild.sights())};
-}
-
-}  // namespace
-
-void for_each_scene(const std::string& joint, const WildChoice& choice,
+void for_each_scene(const std::string& joint, int first, int count,
                     const std::function<void(const cell_simulator::WildScene&, int seed)>& use) {
-  for (int seed = choice.wanted.first; seed < choice.wanted.first + choice.profile_seeds; ++seed)
-    try {
+  for (int seed = first; seed < first + count; ++seed) try {
       use(cell_simulator::draw_wild_scene(joint, static_cast<std::uint64_t>(seed)), seed);
     } catch (const cell_simulator::SceneError& error) {
       fmt::print("  {} seed {}: no scene: {}\n", joint, seed, error.what());
@@ -36,14 +26,16 @@ void bench_wild(const WildChoice& choice, nlohmann::json& json) {
   for (const std::string joint : cell_simulator::wild_joints) {
     if (!choice.wanted.makes(joint)) continue;
     WildRow row(joint + ".wild");
-    for_each_scene(joint, choice, [&](const cell_simulator::WildScene& scene, int seed) {
-      const WildCase wild(scene);
-      const WildFacts facts = facts_of(wild, seed);
-      const seam_t before = wild.answer(false), after = wild.answer(true);
-      const WildJudgement judged[2] = {judge(before, wild.truth()), judge(after, wild.truth())};
-      row.add(facts, choice.referee ? after : before, judged[choice.referee]);
-      table.add(facts, joint, judged[0], judged[1]);
-    });
+    for_each_scene(
+        joint, choice.wanted.first, choice.profile_seeds,
+        [&](const cell_simulator::WildScene& scene, int seed) {
+          const WildCase wild(scene);
+          const WildFacts facts = facts_of(scene, wild.truth(), wild.sights(), seed);
+          const seam_t before = wild.answer(false), after = wild.answer(true);
+          const WildJudgement judged[2] = {judge(before, wild.truth()), judge(after, wild.truth())};
+          row.add(facts, choice.referee ? after : before, judged[choice.referee]);
+          table.add(facts, joint, judged[0], judged[1]);
+        });
     row.finish(json);
   }
   table.print();

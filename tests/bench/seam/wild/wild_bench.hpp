@@ -12,12 +12,16 @@ namespace arcstart {
 
 struct WildChoice {
   int profile_seeds = 100;  // scenes a joint, in closed form
+  int rendered_seeds = 25;  // and in rendered images
   SeedsOfRow wanted;        // row: a joint of the wild
   bool referee = true;      // false: the rows are of answers as they were found
 };
 
 // Rows JOINT.wild: closed form through seam finding.
 void bench_wild(const WildChoice& choice, nlohmann::json& json);
+
+// Rows JOINT.wild.img: rendered images through the whole pipeline, with the referee.
+void bench_rendered_wild(const WildChoice& choice, nlohmann::json& json);
 
 // Rows falsified.* and true.*: what the referee makes of wrong and of right answers.
 void bench_falsified(const WildChoice& choice, nlohmann::json& json);
@@ -33,7 +37,7 @@ void hunt(const WildChoice& choice, double minutes, nlohmann::json& json);
 void show_scene(const std::string& path);
 
 // The scenes of a joint. One that cannot be is told, and left out: draw or `use` throws SceneError.
-void for_each_scene(const std::string& joint, const WildChoice& choice,
+void for_each_scene(const std::string& joint, int first, int count,
                     const std::function<void(const cell_simulator::WildScene&, int seed)>& use);
 
 }  // namespace arcstart
