@@ -7,7 +7,6 @@
 #include "services/cell_simulator/scene/triangle_hierarchy.hpp"
 #include "services/cell_simulator/wild/drawing.hpp"
 #include "services/cell_simulator/wild/plate_form.hpp"
-#include "services/cell_simulator/wild/wild_build.hpp"
 #include "services/cell_simulator/wild/work_form.hpp"
 
 namespace arcstart::cell_simulator {

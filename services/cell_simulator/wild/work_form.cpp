@@ -9,7 +9,6 @@
 #include "services/cell_simulator/wild/joint_frame.hpp"
 #include "services/cell_simulator/wild/plate_form.hpp"
 #include "services/cell_simulator/wild/solid_shapes.hpp"
-#include "services/cell_simulator/wild/wild_build.hpp"
 
 namespace arcstart::cell_simulator {
 namespace {
@@ -179,6 +178,9 @@ WildSeam seam_between(const WildWork& work, const RigidTransform& T_base_work,
     beside = std::max(beside, frames[j].edge.front().second);
     if (plates[j]->section != "plate") beside = std::max(beside, plates[j]->corner_radius_mm);
   }
+  // Of a lap the upper plate's top lies so far above the seam, of a groove the higher plate's.
+  if (work.joint == "lap") beside += work.second.thickness_mm;
+  beside += std::max(std::abs(seam.mismatch_start), std::abs(seam.mismatch_end));
   seam.reach_mm = reach_mm + beside + std::max(seam.gap_start, seam.gap_end);
   seam.objects = {0, 1};
   return seam;
