@@ -35,7 +35,4 @@ Scene in_frame(const Scene& scene, const Scene* carried, const RigidTransform& T
 SensorSettings sensor_of(const WildScene& wild, SensorSettings sensor = {});
 SceneSettings taught_scene_of(const WildScene& wild, SceneSettings scene = {});
 
-// The work's frame in base; the lowest corner of its metal lies at position_mm[2].
-RigidTransform place(const WildWork& work);
-
 }  // namespace arcstart::cell_simulator
