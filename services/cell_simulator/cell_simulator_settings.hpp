@@ -18,6 +18,11 @@ struct CellSimulatorSettings {
 
   std::string scene_at_start = "background";  // background or workpiece
   int seed = 1;                               // of scene, noise and phase of the trigger
+  // A scene of the wild in place of those of scene_settings.hpp: drawn by this number for `joint`;
+  // 0: none. Or read from a file of JSON (wild/wild_json.hpp). It brings its own search, lean and
+  // pitch; cell commands change what of it stands there, not the scene.
+  int wild_seed = 0;
+  std::string wild_file = "";
   std::string calibration_file =
       "";  // the true calibration is written there at start; empty: nowhere
 
@@ -68,6 +73,8 @@ struct CellSimulatorSettings {
   void visit(Visitor& visitor) {
     visitor("scene", scene_at_start, one_of({"background", "workpiece"}));
     visitor("seed", seed, not_negative());
+    visitor("wild_seed", wild_seed, not_negative());
+    visitor("wild_file", wild_file);
     visitor("calibration_file", calibration_file);
     visitor("camera_interface", camera_interface);
     visitor("camera_serial", camera_serial, [](const std::string& serial) -> std::string {

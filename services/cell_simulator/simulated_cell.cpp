@@ -1,9 +1,12 @@
 #include "services/cell_simulator/simulated_cell.hpp"
 
 #include <cmath>
+#include <fstream>
+#include <iterator>
 
 #include "common/time.hpp"
 #include "services/cell_simulator/base/random_stream.hpp"
+#include "services/cell_simulator/wild/wild_json.hpp"
 
 namespace arcstart::cell_simulator {
 namespace {
@@ -55,35 +58,55 @@ RobotControllerSettings controller_settings(const CellSimulatorSettings& s, std:
           mixed(static_cast<std::uint64_t>(s.seed), kPositionNoise, 0)};
 }
 
+std::optional<WildScene> wild_of(const CellSimulatorSettings& settings) {
+  if (!settings.wild_file.empty()) {
+    std::ifstream file(settings.wild_file);
+    if (!file) throw SceneError("wild_file: cannot read " + settings.wild_file);
+    return wild_scene_from_json({std::istreambuf_iterator<char>(file), {}});
+  }
+  if (settings.wild_seed == 0) return {};
+  return draw_wild_scene(settings.scene.joint, static_cast<std::uint64_t>(settings.wild_seed));
+}
+
+CellSimulatorSettings with(CellSimulatorSettings settings, const std::optional<WildScene>& wild) {
+  if (!wild) return settings;
+  settings.sensor = sensor_of(*wild, settings.sensor);
+  settings.scene = taught_scene_of(*wild, settings.scene);
+  settings.search_speed_mm_s = wild->scan.pitch_mm * settings.frame_rate_hz;
+  return settings;
+}
+
 }  // namespace
 
-SimulatedCell::SimulatedCell(const CellSimulatorSettings& settings, std::int64_t now)
-    : settings_(settings),
-      kind_(kind_of(settings.scene_at_start)),
-      seed_(static_cast<std::uint64_t>(settings.seed)),
-      scene_(std::make_shared<const Scene>(make_scene(settings.scene, kind_, seed_))),
-      faults_({settings.fault_scan, settings.fault_after_s, settings.fault_lose_every,
-               settings.fault_camera_away_s, settings.fault_robot_silent_s,
-               settings.fault_robot_clock_back_s}),
-      motion_(search_begin(settings), search_end(settings),
-              {settings.search_speed_mm_s, settings.return_speed_mm_s, settings.acceleration_mm_s2,
-               settings.search_delay_s, settings.further_sweeps_mm_s}),
-      arm_(tool_of(settings)),
-      controller_(controller_settings(settings, now),
+SimulatedCell::SimulatedCell(const CellSimulatorSettings& given, std::int64_t now)
+    : wild_(wild_of(given)),
+      settings_(with(given, wild_)),
+      kind_(kind_of(settings_.scene_at_start)),
+      seed_(static_cast<std::uint64_t>(settings_.seed)),
+      scene_(std::make_shared<const Scene>(make(kind_, seed_))),
+      faults_({settings_.fault_scan, settings_.fault_after_s, settings_.fault_lose_every,
+               settings_.fault_camera_away_s, settings_.fault_robot_silent_s,
+               settings_.fault_robot_clock_back_s}),
+      motion_(
+          search_begin(settings_), search_end(settings_),
+          {settings_.search_speed_mm_s, settings_.return_speed_mm_s, settings_.acceleration_mm_s2,
+           settings_.search_delay_s, settings_.further_sweeps_mm_s}),
+      arm_(tool_of(settings_)),
+      controller_(controller_settings(settings_, now),
                   [this](std::int64_t utime) { return reported_pose(utime); }),
-      renderer_(settings.sensor),
+      renderer_(settings_.sensor),
       camera_(
-          camera_settings(settings, now),
+          camera_settings(settings_, now),
           [this](const SimulatedFrame& frame, std::uint8_t* grey) { render(frame, grey); },
           [this](const SimulatedFrame& frame) {
             return faults_.frame_lost(frame.slot, camera_.frame_period());
           }) {
-  if (!reaches(search_begin(settings)) || !reaches(search_end(settings)))
+  if (!reaches(search_begin(settings_)) || !reaches(search_end(settings_)))
     throw std::runtime_error(
         "the arm cannot reach the taught positions: set work_position_mm or tool_mm");
   camera_.open();
   sender_ = std::make_unique<HspoSender>(
-      settings.hspo_host, settings.hspo_port, seconds_to_us(settings.hspo_period_ms * 1e-3),
+      settings_.hspo_host, settings_.hspo_port, seconds_to_us(settings_.hspo_period_ms * 1e-3),
       [this](std::int64_t instant) {
         auto packet = controller_.packet(instant, faults_.robot_clock_back_us(instant));
         if (faults_.robot_silent(instant)) packet.clear();
@@ -113,8 +136,12 @@ void SimulatedCell::scan_ends(std::int64_t now) {
   motion_.go_back(now);
 }
 
+Scene SimulatedCell::make(SceneKind kind, std::uint64_t seed) const {
+  return wild_ ? build(*wild_, kind) : make_scene(settings_.scene, kind, seed);
+}
+
 void SimulatedCell::put(SceneKind kind, std::uint64_t seed) {
-  auto scene = std::make_shared<const Scene>(make_scene(settings_.scene, kind, seed));
+  auto scene = std::make_shared<const Scene>(make(kind, seed));
   {
     const std::lock_guard lock(scene_mutex_);
     kind_ = kind;

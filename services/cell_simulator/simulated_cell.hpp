@@ -13,6 +13,7 @@
 #include "services/cell_simulator/robot/hspo_sender.hpp"
 #include "services/cell_simulator/robot/robot_controller.hpp"
 #include "services/cell_simulator/robot/search_motion.hpp"
+#include "services/cell_simulator/wild/wild_build.hpp"
 
 namespace arcstart::cell_simulator {
 
@@ -57,10 +58,12 @@ class SimulatedCell {
   }  // what cannot be done at present, with what to do; empty for nothing
 
  private:
+  Scene make(SceneKind kind, std::uint64_t seed) const;
   void render(const SimulatedFrame& frame, std::uint8_t* grey);
   RigidTransform reported_pose(std::int64_t utime) const;
 
-  CellSimulatorSettings settings_;
+  std::optional<WildScene> wild_;
+  CellSimulatorSettings settings_;  // with what a scene of the wild brings along
   mutable std::mutex scene_mutex_;  // of what the devices' threads read: the six below
   SceneKind kind_;
   std::uint64_t seed_;

@@ -1,12 +1,14 @@
 #include <Eigen/Geometry>
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 #include "common/geometry.hpp"
 #include "services/cell_simulator/scene/triangle_hierarchy.hpp"
+#include "services/cell_simulator/wild/clutter_ground.hpp"
 #include "services/cell_simulator/wild/drawing.hpp"
 #include "services/cell_simulator/wild/plate_form.hpp"
-#include "services/cell_simulator/wild/wild_build.hpp"
+#include "services/cell_simulator/wild/solid_shapes.hpp"
 #include "services/cell_simulator/wild/work_form.hpp"
 
 namespace arcstart::cell_simulator {
@@ -14,47 +16,19 @@ namespace {
 
 using Eigen::AngleAxisd, Eigen::Vector3d;
 
-constexpr double apart_mm = 0.3;  // what lies about keeps so far off the seam's line
-
-// How high things lie there, and where the seam runs.
-class Ground {
- public:
-  explicit Ground(const WildWork& work) : work_(work), T_base_work_(place(work)) {
-    for (WorkPart& part : parts_of(work)) meshes_.push_back(std::move(part.mesh));
-    std::vector<const TriangleMesh*> pointers;
-    for (const TriangleMesh& mesh : meshes_) pointers.push_back(&mesh);
-    triangles_ = TriangleHierarchy(pointers);
-    begin_ = std::max(foot_end(work.first, Side::begin), foot_end(work.second, Side::begin));
-    end_ = std::min(foot_end(work.first, Side::end), foot_end(work.second, Side::end));
-  }
-
-  double begin() const { return begin_; }
-  double end() const { return end_; }
-  const WildWork& work() const { return work_; }
-  bool fillet() const { return work_.joint == "tee" || work_.joint == "inside_corner"; }
-
-  // Of the work or the table under a place in base.
-  double height(double x, double y) const {
-    constexpr double above_mm = 300;
-    const Vector3d from(x, y, above_mm), to(x, y, 0);
-    const double share = triangles_.first_hit(from, to);
-    return share <= 1 ? above_mm * (1 - share) : 0;
-  }
-  Vector3d base(const Vector3d& in_work) const { return on_work(work_, T_base_work_, in_work); }
-  Eigen::Matrix3d turned() const { return T_base_work_.linear(); }
-  double distance_to_seam(const Vector3d& p) const {
-    const Vector3d a = base({begin_, 0, 0}), b = base({end_, 0, 0});
-    const double share = std::clamp((p - a).dot(b - a) / (b - a).squaredNorm(), 0.0, 1.0);
-    return (a + share * (b - a) - p).norm();
-  }
-
- private:
-  const WildWork& work_;
-  RigidTransform T_base_work_;
-  std::vector<TriangleMesh> meshes_;
-  TriangleHierarchy triangles_;
-  double begin_, end_;
-};
+// Does an edge of one go through a face of the other?
+bool cut(const WildSolid& one, const WildSolid& other) {
+  const TriangleMesh a = mesh_of(one), b = mesh_of(other);
+  const auto goes_through = [](const TriangleMesh& mesh, const TriangleMesh& faces) {
+    const TriangleHierarchy triangles({&faces});
+    return std::any_of(mesh.triangles.begin(), mesh.triangles.end(), [&](const auto& t) {
+      for (int i = 0; i < 3; ++i)
+        if (triangles.first_hit(mesh.corners[t[i]], mesh.corners[t[(i + 1) % 3]]) <= 1) return true;
+      return false;
+    });
+  };
+  return goes_through(a, b) || goes_through(b, a);
+}
 
 void set_pose(WildSolid& solid, const Vector3d& at, const Eigen::Matrix3d& turned) {
   const Eigen::Quaterniond q(turned);
@@ -64,26 +38,6 @@ void set_pose(WildSolid& solid, const Vector3d& at, const Eigen::Matrix3d& turne
 
 Eigen::Matrix3d about_z(double degrees) {
   return AngleAxisd(degrees * kDegree, Vector3d::UnitZ()).toRotationMatrix();
-}
-
-// At the seam's start, its end, or anywhere along it.
-double place_along(const Ground& ground, Draw& draw) {
-  const double which = draw.within(0, 1);
-  if (which < 0.35) return ground.begin() + draw.within(-10, 15);
-  if (which < 0.55) return ground.end() + draw.within(-15, 10);
-  return draw.within(ground.begin(), ground.end());
-}
-
-// The same, but over the first plate at that distance from the seam.
-double place_on_first(const Ground& ground, Draw& draw, double across) {
-  constexpr double rim_mm = 4;
-  const WildPlate& plate = ground.work().first;
-  const double away = ground.work().joint == "outside_corner" ? across : -across;
-  const double t = std::min(away, plate.away_mm);
-  const double low = face_edge(plate, Side::begin, t) + rim_mm,
-               high = face_edge(plate, Side::end, t) - rim_mm;
-  const double along = place_along(ground, draw);
-  return low < high ? std::clamp(along, low, high) : (low + high) / 2;
 }
 
 WildSolid draw_bar(Draw& draw) {
@@ -125,7 +79,7 @@ void add_bar_across(const Ground& ground, Draw& draw, std::vector<WildSolid>& so
 
 // In the corner, along the seam, touching both plates.
 void add_bar_in_corner(const Ground& ground, Draw& draw, std::vector<WildSolid>& solids) {
-  if (!ground.fillet()) return;
+  if (!ground.fillet()) return add_bar_across(ground, draw, solids);
   WildSolid bar = draw_bar(draw);
   bar.kind = "round";
   bar.size_mm[0] = draw.within(20, 70);
@@ -265,7 +219,24 @@ void add_cable(const Ground& ground, Draw& draw, std::vector<WildSolid>& solids)
     double sum = 0, number = 0;
     for (int k = std::max(0, i - reach); k <= std::min(count - 1, i + reach); ++k)
       sum += top[k], ++number;
-    cable.points_mm.push_back({way[i].x(), way[i].y(), sum / number + radius});
+    cable.points_mm.push_back(
+        {way[i].x(), way[i].y(), std::max(sum / number, ground_height[i]) + radius + apart_mm});
+  }
+  // Not through the metal at the seam's ends: lifted there until it is clear.
+  for (const double along : {ground.begin(), ground.end()}) {
+    const Vector3d end = ground.base({along, 0, 0});
+    const auto nearest = [&] {
+      double least = std::numeric_limits<double>::infinity();
+      for (std::size_t i = 0; i + 1 < cable.points_mm.size(); ++i) {
+        const Vector3d a(cable.points_mm[i].data()), b(cable.points_mm[i + 1].data());
+        const double share = std::clamp((end - a).dot(b - a) / (b - a).squaredNorm(), 0.0, 1.0);
+        least = std::min(least, (a + share * (b - a) - end).norm());
+      }
+      return least;
+    };
+    while (nearest() < radius + apart_mm)
+      for (auto& p : cable.points_mm)
+        if ((Vector3d(p.data()) - end).norm() < 4 * step_mm) p[2] += apart_mm;
   }
   solids.push_back(cable);
 }
@@ -314,6 +285,13 @@ std::vector<WildSolid> draw_clutter(const WildScene& scene, Draw& draw) {
     } else {
       add_spatter(ground, draw, solids);
     }
+    // Two things are not in one place.
+    const auto added = solids.begin() + static_cast<std::ptrdiff_t>(before);
+    if (std::any_of(added, solids.end(), [&](const WildSolid& one) {
+          return std::any_of(solids.begin(), added,
+                             [&](const WildSolid& other) { return cut(one, other); });
+        }))
+      solids.resize(before);
     // Gone when the work came.
     if (draw.chance(0.06))
       for (std::size_t k = before; k < solids.size(); ++k)

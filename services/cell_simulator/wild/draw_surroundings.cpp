@@ -3,7 +3,7 @@
 
 #include "common/geometry.hpp"
 #include "services/cell_simulator/wild/drawing.hpp"
-#include "services/cell_simulator/wild/wild_build.hpp"
+#include "services/cell_simulator/wild/work_form.hpp"
 
 namespace arcstart::cell_simulator {
 

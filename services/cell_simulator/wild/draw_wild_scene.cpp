@@ -56,7 +56,7 @@ WildScene draw_wild_scene(const std::string& joint, std::uint64_t seed) {
   WildScene scene;
   scene.asked = joint;
   scene.seed = mixed;
-  const bool quiet = kind.chance(0.36);
+  const bool quiet = kind.chance(0.27);
   const bool wrong = kind.chance(0.06), empty = wrong && kind.chance(0.25);
   if (wrong && !empty)
     scene.works.push_back(draw_wrong_work(joint, kind, work, quiet));
@@ -72,7 +72,7 @@ WildScene draw_wild_scene(const std::string& joint, std::uint64_t seed) {
   scene.scan = draw_scan(scene.works, surroundings);
   if (quiet) return scene;
   scene.events = draw_events(surroundings);
-  if (clutter.chance(0.85)) scene.solids = draw_clutter(scene, clutter);
+  if (clutter.chance(0.9)) scene.solids = draw_clutter(scene, clutter);
   return scene;
 }
 

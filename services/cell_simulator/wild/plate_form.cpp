@@ -1,5 +1,7 @@
 #include "services/cell_simulator/wild/plate_form.hpp"
 
+#include <fmt/core.h>
+
 #include <algorithm>
 #include <cmath>
 #include <numbers>
@@ -140,7 +142,12 @@ TriangleMesh make_flat(const WildPlate& plate, const SeamEdge& edge) {
     for (const Corner& corner : ring)
       section.back().push_back(place_of(corner, plate, edge, 0).head<2>());
   }
-  if (twice_area(section[0]) <= 0) throw SceneError("a plate's cuts leave nothing of it");
+  if (twice_area(section[0]) <= 0)
+    throw SceneError(
+        fmt::format("a plate's cuts from {:.1f} to {:.1f} mm leave nothing of it; away {:.1f} mm, "
+                    "turned {:.1f} and {:.1f} deg",
+                    plate.begin.at_mm, plate.end.at_mm, plate.away_mm, plate.begin.turn_deg,
+                    plate.end.turn_deg));
   std::vector<std::vector<Eigen::Vector3d>> layers;
   for (const double d : depths_of(plate, edge)) {
     layers.emplace_back();

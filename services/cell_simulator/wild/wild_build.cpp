@@ -96,6 +96,19 @@ std::optional<Scene> on_tool(const WildScene& wild) {
   return Scene({{"nozzle", transformed(mesh, T_camera_wire), {0.5, 0.05, 1, 0.2, 0.01}}});
 }
 
+Scene in_frame(const Scene& scene, const Scene* carried, const RigidTransform& T_base_camera,
+               const Eigen::Vector3d& shaken_mm) {
+  std::vector<SceneObject> objects = scene.objects();
+  for (std::size_t i = 1; i < objects.size(); ++i)
+    for (Eigen::Vector3d& corner : objects[i].mesh.corners) corner += shaken_mm;
+  if (carried)
+    for (SceneObject object : carried->objects()) {
+      object.mesh = transformed(object.mesh, T_base_camera);
+      objects.push_back(std::move(object));
+    }
+  return Scene(std::move(objects), scene.seam());
+}
+
 SensorSettings sensor_of(const WildScene& wild, SensorSettings sensor) {
   sensor.lean_deg = wild.scan.lean_deg;
   sensor.ambient_grey += wild.events.sun_grey;

@@ -26,11 +26,13 @@ std::vector<WildSurface> surfaces_of(const WildScene& wild, SceneKind kind);
 // out of view.
 std::optional<Scene> on_tool(const WildScene& wild);
 
+// A scene in one frame: all but the table shaken off its place, and what the tool carries (nullptr:
+// nothing) before the camera.
+Scene in_frame(const Scene& scene, const Scene* carried, const RigidTransform& T_base_camera,
+               const Eigen::Vector3d& shaken_mm);
+
 // The sensor and the taught work that make taught_tool_pose() run this scan.
 SensorSettings sensor_of(const WildScene& wild, SensorSettings sensor = {});
 SceneSettings taught_scene_of(const WildScene& wild, SceneSettings scene = {});
-
-// The work's frame in base; the lowest corner of its metal lies at position_mm[2].
-RigidTransform place(const WildWork& work);
 
 }  // namespace arcstart::cell_simulator

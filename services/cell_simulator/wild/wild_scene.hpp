@@ -53,7 +53,7 @@ struct WildPlate {
   double away_mm = 50, behind_mm = 0;
   double depth_mm = 40;         // of an angle or a hollow section, from its face
   double corner_radius_mm = 0;  // outside, of an angle's heel or a hollow section
-  WildCut begin, end;
+  WildCut begin{-50}, end{50};
   std::vector<WildHole> holes;
   std::vector<WildNotch> notches;
   WildSurface surface;

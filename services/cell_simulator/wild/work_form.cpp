@@ -9,7 +9,6 @@
 #include "services/cell_simulator/wild/joint_frame.hpp"
 #include "services/cell_simulator/wild/plate_form.hpp"
 #include "services/cell_simulator/wild/solid_shapes.hpp"
-#include "services/cell_simulator/wild/wild_build.hpp"
 
 namespace arcstart::cell_simulator {
 namespace {
@@ -34,7 +33,7 @@ Vector3d bent(const WildWork& work, const Vector3d& p) {
 
 TriangleMesh bent(const WildWork& work, const TriangleMesh& mesh) {
   if (work.bow_mm == 0) return mesh;
-  constexpr double chord_error_mm = 0.005;
+  constexpr double chord_error_mm = 0.009;
   TriangleMesh result = sliced(mesh, std::sqrt(8 * chord_error_mm * std::abs(radius_of(work))));
   for (Vector3d& corner : result.corners) corner = bent(work, corner);
   return result;
@@ -68,8 +67,20 @@ TriangleMesh bead_mesh(const WildBead& bead, const WildWork& work) {
   } else if (work.joint == "outside_corner") {
     at += Vector3d(0, 0.4, -0.4) * bead.leg_mm;
   }
+  // Weld metal goes no further into the joint than this, or it would come out of thin sheet.
+  Vector3d low = Vector3d::Constant(-1e9), high = -low;
+  const bool standing = work.joint == "tee" || work.joint == "inside_corner";
+  if (bead.other_side) {
+    if (standing || work.joint == "lap" || work.joint == "outside_corner") low.y() = at.y();
+    if (work.joint == "butt" || work.joint == "v" || work.joint == "outside_corner")
+      high.z() = at.z();
+  } else if (standing) {
+    high.y() = 0.5 * work.second.thickness_mm;
+    low.z() = -0.5 * work.first.thickness_mm;
+  }
   for (Vector3d& corner : mesh.corners)
-    corner = at + Vector3d(corner.x(), corner.y(), flat * corner.z());
+    corner =
+        (at + Vector3d(corner.x(), corner.y(), flat * corner.z())).cwiseMax(low).cwiseMin(high);
   return mesh;
 }
 
@@ -179,6 +190,9 @@ WildSeam seam_between(const WildWork& work, const RigidTransform& T_base_work,
     beside = std::max(beside, frames[j].edge.front().second);
     if (plates[j]->section != "plate") beside = std::max(beside, plates[j]->corner_radius_mm);
   }
+  // Of a lap the upper plate's top lies so far above the seam, of a groove the higher plate's.
+  if (work.joint == "lap") beside += work.second.thickness_mm;
+  beside += std::max(std::abs(seam.mismatch_start), std::abs(seam.mismatch_end));
   seam.reach_mm = reach_mm + beside + std::max(seam.gap_start, seam.gap_end);
   seam.objects = {0, 1};
   return seam;
@@ -236,9 +250,11 @@ std::vector<WildSeam> seams_of(const WildWork& work) {
     other.second.begin.at_mm = rib.begin_mm;
     other.second.end.at_mm = rib.end_mm;
     // The base plate's ends on that line.
-    other.first.begin = {face_edge(work.first, Side::begin, -rib.across_mm),
-                         work.first.begin.turn_deg};
-    other.first.end = {face_edge(work.first, Side::end, -rib.across_mm), work.first.end.turn_deg};
+    for (const Side side : {Side::begin, Side::end}) {
+      WildCut& cut = side == Side::begin ? other.first.begin : other.first.end;
+      cut.at_mm += face_edge(work.first, side, -rib.across_mm) - face_edge(work.first, side, 0);
+      cut.wave_phase_deg -= 360 * rib.across_mm / cut.wave_pitch_mm;
+    }
     PlateFrame base = first_frame(other), upright = second_frame(other);
     base.origin.y() += rib.across_mm;
     upright.origin.y() += rib.across_mm;

@@ -18,6 +18,10 @@ struct WorkPart {
   WildSurface surface;
 };
 
+// The work's frame in base; the lowest corner of its metal, weld metal apart, lies at
+// position_mm[2]. Throws SceneError where the description is impossible, as all here.
+RigidTransform place(const WildWork& work);
+
 // In base. The first plate comes first, then the second where there is one.
 std::vector<WorkPart> parts_of(const WildWork& work);
 

@@ -4,51 +4,16 @@
 #include <map>
 #include <numbers>
 
-#include "services/extraction/extraction_app.hpp"
-#include "services/reconstruction/reconstruction_app.hpp"
-#include "services/seam_finding/seam_finding_app.hpp"
+#include "services/reconstruction/reconstruction_settings.hpp"
+#include "tests/bench/seam/rendered_answer.hpp"
 #include "tests/bench/seam/seam_row.hpp"
 #include "tests/bench/seam/seam_scenes.hpp"
-#include "tests/bench/seam/simulated_scan.hpp"
 
 namespace arcstart {
 
 using namespace cell_simulator;
-using namespace extraction;
 using namespace reconstruction;
-using namespace seam_finding;
 namespace {
-
-struct Outcome {
-  seam_t seam{};
-  truth_t truth{};
-};
-
-Outcome run_seed(const SimulatedScanSettings& settings, const std::string& joint_type,
-                 std::uint64_t seed) {
-  const auto bus = Bus::in_memory();
-  const Instance instance;  // no state folder: nothing outlives the run
-  extraction::ExtractionApp extraction(*bus, extraction::ExtractionSettings{}, instance);
-  reconstruction::ReconstructionApp reconstruction(*bus, reconstruction::ReconstructionSettings{},
-                                                   instance);
-  seam_finding::SeamFindingSettings seam_settings;
-  seam_settings.joint_type = joint_type;
-  seam_finding::SeamFindingApp seam_finding(*bus, seam_settings, instance);
-  Outcome outcome{};
-  outcome.seam.verdict = seam_t::REFUSED;
-  outcome.seam.reason = "no answer came";
-  bus->subscribe<seam_t>("LASER0_SEAM", Queue::measurements(),
-                         [&](const seam_t& seam) { outcome.seam = seam; });
-  // Losses spoil the workpiece scan alone: a background is scanned again until it is whole.
-  SimulatedScanSettings whole = settings;
-  whole.frames_lost_share = whole.positions_lost_share = 0;
-  SimulatedScan scan(*bus, whole, seed);
-  scan.run(cell_simulator::SceneKind::background);
-  scan.set_losses(settings.frames_lost_share, settings.positions_lost_share);
-  scan.run(cell_simulator::SceneKind::workpiece);
-  outcome.truth = scan.truth();
-  return outcome;
-}
 
 SimulatedScanSettings without_tool() {
   SimulatedScanSettings settings;
@@ -78,7 +43,7 @@ void bench_root_gaps(int seeds, const SeedsOfRow& wanted, nlohmann::json& json) 
       double sum = 0, off = 0, most = 0, squared = 0;
       int answered = 0, stations = 0, measured = 0, within = 0;
       for (int seed = wanted.first; seed < wanted.first + seeds; ++seed) {
-        const seam_t seam = run_seed(settings, joint, static_cast<std::uint64_t>(seed)).seam;
+        const seam_t seam = answer_rendered(settings, joint, static_cast<std::uint64_t>(seed)).seam;
         if (seam.verdict != seam_t::FOUND) continue;
         for (const seam_station_t& station : seam.stations) {
           ++stations;
@@ -137,17 +102,20 @@ void bench_rendered(int seeds, const SeedsOfRow& wanted, nlohmann::json& json) {
   SimulatedScanSettings& butt = row("butt");
   butt.scene.joint = "butt", butt.scene.root_gap_mm = 1;
   SimulatedScanSettings& v = row("v");
-  v.scene.joint = "v", v.scene.root_gap_mm = 2;
+  v.scene.joint = std::string("v"), v.scene.root_gap_mm = 2;
+  const std::string tee = "tee";
   // An outside corner has to be asked for.
   const std::map<std::string, std::string> asked{
       {"corner", "outside_corner"}, {"lap", "any"}, {"butt", "any"}, {"v", "any"}};
   for (const auto& [name, settings] : rows) {
     if (!wanted.makes(name)) continue;
     SeamRow figures(name + ".img");
+    const auto other = asked.find(name);
+    const std::string& joint = other == asked.end() ? tee : other->second;
     const int count = name == "tool" ? 2 * seeds : seeds;
     for (int seed = wanted.first; seed < wanted.first + count; ++seed) {
-      const Outcome outcome = run_seed(settings, asked.contains(name) ? asked.at(name) : "tee",
-                                       static_cast<std::uint64_t>(seed));
+      const RenderedAnswer outcome =
+          answer_rendered(settings, joint, static_cast<std::uint64_t>(seed));
       figures.add(seed, outcome.seam, outcome.truth, 0.15);
     }
     figures.finish(json);

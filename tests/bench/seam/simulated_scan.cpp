@@ -7,6 +7,7 @@
 #include "common/sensor_model.hpp"
 #include "common/time.hpp"
 #include "services/cell_simulator/base/random_stream.hpp"
+#include "tests/seam_finding/support/wild_told.hpp"
 
 namespace arcstart {
 
@@ -17,21 +18,32 @@ constexpr std::int64_t kRunId = 1'699'999'999'000'000;
 
 void copy(const Eigen::Vector3d& from, double to[3]) { std::copy(from.begin(), from.end(), to); }
 
+// Those by which a scene of the wild is scanned.
+SimulatedScanSettings completed(SimulatedScanSettings settings) {
+  if (!settings.wild) return settings;
+  settings.sensor = sensor_of(*settings.wild, settings.sensor);
+  settings.scene = taught_scene_of(*settings.wild, settings.scene);
+  settings.frames_per_second = settings.speed_mm_s / settings.wild->scan.pitch_mm;
+  return settings;
+}
+
 }  // namespace
 
 SimulatedScan::SimulatedScan(Bus& bus, const SimulatedScanSettings& settings, std::uint64_t seed)
     : bus_(bus),
-      settings_(settings),
+      settings_(completed(settings)),
       losses_(seed * 31 + 7),
       seed_(seed),
-      renderer_(settings.sensor) {
+      renderer_(settings_.sensor) {
+  if (settings_.wild) on_tool_ = on_tool(*settings_.wild);
   publish_calibration();
 }
 
 void SimulatedScan::publish_calibration() {
   if (settings_.calibration)
     return bus_.publish("LASER0_CALIBRATION", to_message(*settings_.calibration));
-  const cell_simulator::TrueSensor& sensor = renderer_.sensor();
+  cell_simulator::TrueSensor sensor = renderer_.sensor();
+  if (settings_.wild) sensor = seam_finding::synthetic::told_sensor(*settings_.wild, sensor);
   SensorModel model{
       sensor.width, sensor.height, sensor.fx,         sensor.fy,
       sensor.cx,    sensor.cy,     sensor.distortion, {sensor.laser_normal, sensor.laser_offset}};
@@ -106,6 +118,7 @@ void SimulatedScan::publish_pose(const RigidTransform& T_base_tool, std::int64_t
   message.run_id = kRunId;
   message.seq = pose_seq_++;
   RigidTransform seen = T_base_tool;
+  if (settings_.wild) seen = seam_finding::synthetic::told_pose(*settings_.wild, T_base_tool);
   seen.linear() = robot_error_.linear() * seen.linear();
   seen.translation() += robot_error_.translation();
   seen.translation() += Eigen::Vector3d(noise(random), noise(random), noise(random));
@@ -142,15 +155,42 @@ void SimulatedScan::publish_image(const cell_simulator::Scene& scene,
   message.arrival_utime = message.utime;
   message.size = sensor.width * sensor.height;
   message.data.resize(static_cast<std::size_t>(message.size));
-  renderer_.render(scene, T_base_tool, cell_simulator::Exposure{},
-                   seed_ * 100'003 + static_cast<std::uint64_t>(message.seq), message.data.data(),
-                   renderer_.whole_image());
+  render(scene, T_base_tool, seed_ * 100'003 + static_cast<std::uint64_t>(message.seq),
+         message.data);
   message.crc32c = crc32c(message.data);
   bus_.publish("LASER0_IMAGE", message);
 }
 
+cell_simulator::Scene SimulatedScan::make_scene(cell_simulator::SceneKind kind) const {
+  return settings_.wild ? build(*settings_.wild, kind)
+                        : cell_simulator::make_scene(settings_.scene, kind, seed_);
+}
+
+void SimulatedScan::render(const Scene& scene, const RigidTransform& T_base_tool,
+                           std::uint64_t frame_seed, std::vector<std::uint8_t>& grey) {
+  const auto render_it = [&](const Scene& shown) {
+    renderer_.render(shown, T_base_tool, Exposure{}, frame_seed, grey.data(),
+                     renderer_.whole_image());
+  };
+  const WildEvents events = settings_.wild ? settings_.wild->events : WildEvents{};
+  RandomStream random(frame_seed, 83);
+  const double flicker = events.flicker_grey * random.uniform();
+  if (on_tool_ || events.shake_mm > 0) {
+    Eigen::Vector3d shaken;
+    for (double& value : shaken) value = events.shake_mm * random.normal();
+    render_it(in_frame(scene, on_tool_ ? &*on_tool_ : nullptr,
+                       T_base_tool * renderer_.sensor().T_tool_camera, shaken));
+  } else {
+    render_it(scene);
+  }
+  const int brighter = static_cast<int>(flicker);
+  if (brighter > 0)
+    for (std::uint8_t& value : grey)
+      value = static_cast<std::uint8_t>(std::min(255, value + brighter));
+}
+
 void SimulatedScan::run(cell_simulator::SceneKind kind) {
-  const cell_simulator::Scene scene = cell_simulator::make_scene(settings_.scene, kind, seed_);
+  const cell_simulator::Scene scene = make_scene(kind);
   const RigidTransform begin = cell_simulator::taught_tool_pose(settings_.sensor, settings_.scene,
                                                                 settings_.scene.search_begin_mm);
   const RigidTransform end = cell_simulator::taught_tool_pose(settings_.sensor, settings_.scene,
@@ -159,8 +199,12 @@ void SimulatedScan::run(cell_simulator::SceneKind kind) {
       (end.translation() - begin.translation()).norm() / settings_.speed_mm_s;  // s
   // Half a second of rest on either side of the search; the trigger's phase by seed and scan.
   std::mt19937_64 random(seed_ * 2 + (kind == cell_simulator::SceneKind::workpiece));
-  const double phase =
-      std::uniform_real_distribution<double>(0, 1 / settings_.frames_per_second)(random);
+  double phase = std::uniform_real_distribution<double>(0, 1 / settings_.frames_per_second)(random);
+  if (settings_.wild && kind == cell_simulator::SceneKind::workpiece) {
+    // Its stripes fall where those of the scan in closed form do; the motion begins after 0.5 s.
+    const double frames = settings_.wild->scan.phase_share + 0.5 * settings_.frames_per_second;
+    phase = (frames - std::floor(frames)) / settings_.frames_per_second;
+  }
   scan_id_ = clock_ += 10'000'000;
   const auto pose_at = [&](double seconds) {
     return interpolate(begin, end, std::clamp((seconds - 0.5) / duration, 0.0, 1.0));
@@ -192,13 +236,12 @@ void SimulatedScan::run(cell_simulator::SceneKind kind) {
 }
 
 truth_t SimulatedScan::truth() const {
-  const cell_simulator::SeamTruth seam =
-      cell_simulator::make_scene(settings_.scene, cell_simulator::SceneKind::workpiece, seed_)
-          .seam()
-          .value();
   truth_t message{};
   message.utime = kRunId;
   message.seed = static_cast<std::int64_t>(seed_);
+  const auto found = make_scene(cell_simulator::SceneKind::workpiece).seam();
+  if (!found) return message;
+  const cell_simulator::SeamTruth& seam = *found;
   message.joint_type = seam.joint_type;
   copy(seam.start, message.start);
   copy(seam.end, message.end);

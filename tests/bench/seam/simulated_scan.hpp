@@ -12,6 +12,7 @@
 #include "common/calibration.hpp"
 #include "services/cell_simulator/image/image_renderer.hpp"
 #include "services/cell_simulator/scene/scene.hpp"
+#include "services/cell_simulator/wild/wild_build.hpp"
 
 namespace arcstart {
 
@@ -26,6 +27,9 @@ struct SimulatedScanSettings {
   double frames_lost_share = 0;    // at the camera
   double positions_lost_share = 0;
   std::optional<Calibration> calibration;  // what the pipeline is told; nothing: the truth
+  // A scene of the wild in place of `scene`: then the search, the frames per second and the
+  // sensor's lean are its own, and what is told of calibration and positions errs as it says.
+  std::optional<cell_simulator::WildScene> wild;
   // What the robot says is wrong by these, the same all through a scan, drawn anew for each:
   // standard deviations an axis, of the place in base and of the turn about the tool centre point.
   double robot_error_mm = 0, robot_error_deg = 0;
@@ -36,9 +40,11 @@ class SimulatedScan {
   // The bus must outlive this. The seed makes the scene, the trigger's phase and all noise.
   SimulatedScan(Bus& bus, const SimulatedScanSettings& settings, std::uint64_t seed);
 
+  // Where there is no seam, a truth without a joint type; of several seams the first.
+  truth_t truth() const;
+
   // One whole scan from its start command to its end; what the pipeline says is handled on the way.
   void run(cell_simulator::SceneKind kind);
-  truth_t truth() const;
 
   // Of the scans to come.
   void set_losses(double frames_share, double positions_share) {
@@ -55,6 +61,11 @@ class SimulatedScan {
   void publish_image(const cell_simulator::Scene& scene, const RigidTransform& T_base_tool,
                      std::int64_t middle, int index);
 
+  cell_simulator::Scene make_scene(cell_simulator::SceneKind kind) const;
+  // Speckle and noise; of a scene of the wild also what shakes, flickers and hangs on the tool.
+  void render(const cell_simulator::Scene& scene, const RigidTransform& T_base_tool,
+              std::uint64_t frame_seed, std::vector<std::uint8_t>& grey);
+
   bool lost(double share) { return std::uniform_real_distribution<double>(0, 1)(losses_) < share; }
 
   Bus& bus_;
@@ -62,7 +73,8 @@ class SimulatedScan {
   std::mt19937_64 losses_;
   std::uint64_t seed_;
   cell_simulator::ImageRenderer renderer_;
-  std::int64_t clock_ = 1'700'000'000'000'000;  // us, UTC
+  std::optional<cell_simulator::Scene> on_tool_;  // in camera
+  std::int64_t clock_ = 1'700'000'000'000'000;    // us, UTC
   std::int64_t scan_id_ = 0, image_seq_ = 0, pose_seq_ = 0, first_seq_ = 0, last_seq_ = 0;
   int frames_lost_ = 0;                                      // of this scan
   int gap_ = 0;                                              // frames lost since the last that came

@@ -26,7 +26,7 @@ struct WildScanChoice {
 // What the exact geometry says of a seam's end, by this scan's stripes.
 struct WildSight {
   enum class Kind { kOutside, kHidden, kBounded, kCrossed };
-  bool in_view = false;  // at least three stripes within three spacings of the end, inside the
+  bool in_view = false;  // at least three stripes within four spacings of the end, inside the
                          // seam, show both plates within the seam's reach
   int stripes = 0;       // how many do
   int crossings = 0;  // stripes that leave the deciding plate's face over the edge there, and are

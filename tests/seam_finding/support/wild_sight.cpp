@@ -14,7 +14,7 @@ constexpr double least_shown_mm = 1.5;  // of a plate within reach, for it to co
 constexpr double edge_mm = 0.05;        // how near to the edge a line on the plate ends
 constexpr double edge_reach_mm = 40;    // how far from the seam such a place tells of its end
 constexpr double same_way = 0.9;        // cosine between a triangle's and the plate's normal
-constexpr double window_spacings = 3;   // of stripes inside the seam that show its end
+constexpr double window_spacings = 4;   // of stripes inside the seam that show its end
 
 bool on_face(const WildPiece& piece, const WildSeam& seam, int plate) {
   return !piece.ghost && piece.object == seam.objects[plate] &&

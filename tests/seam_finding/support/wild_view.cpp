@@ -48,7 +48,13 @@ class View {
       const auto pixel = see(sensor_, T_camera_base_ * p);
       return pixel && inside(*pixel) && free(p, line);
     };
-    const int steps = 2 + static_cast<int>((*last - *first).norm() / step_px);
+    const double length_px = (*last - *first).norm();
+    constexpr double short_px = 2;  // seen as a whole or not at all
+    if (length_px < short_px) {
+      if (in_sight(0.5)) add(line, 0, 1, pieces);
+      return;
+    }
+    const int steps = 2 + static_cast<int>(length_px / step_px);
     // Not at the very ends, which touch what bounds them.
     const auto share_of = [&](int i) {
       constexpr double in = 1e-4;

@@ -6,12 +6,18 @@
 #include <cmath>
 
 #include "tests/bench/seam/figures.hpp"
+#include "tests/bench/seam/wild/scene_tags.hpp"
 
 namespace arcstart {
 
 using Where = SilentError::Where;
 using seam_finding::synthetic::WildSeamSight;
 using seam_finding::synthetic::WildSight;
+
+WildFacts facts_of(const cell_simulator::WildScene& scene, const cell_simulator::WildTruth& truth,
+                   const std::vector<WildSeamSight>& sights, int seed) {
+  return {seed, truth.wrong, scene.scan.pitch_mm, sights, tags_of(scene, truth, sights)};
+}
 
 void WildRow::add(const WildFacts& facts, const seam_t& seam, const WildJudgement& judgement) {
   ++seeds_;

@@ -21,6 +21,9 @@ struct WildFacts {
   std::vector<std::string> tags;
 };
 
+WildFacts facts_of(const cell_simulator::WildScene& scene, const cell_simulator::WildTruth& truth,
+                   const std::vector<seam_finding::synthetic::WildSeamSight>& sights, int seed);
+
 class WildRow {
  public:
   explicit WildRow(std::string name) : name_(std::move(name)) {}
