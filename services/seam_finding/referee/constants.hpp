@@ -59,6 +59,10 @@ struct RefereeConstants {
   double dark = 2;
   // Such a stripe's weight beside one that shows what lies behind - bench.
   double dark_weight = 0.4;
+  // mm; waves of a flame's cut, at most - ISO 9013, unevenness of range 4 at 20 mm, and more.
+  double largest_wave = 1.6;
+  // mm; from where a plate begins, the first place that says whether it is there - bench.
+  double first_place = 0.5;
   // Of the stripes that speak of an edge, those that may contradict it - bench.
   double contradicting = 0.2;
   // Share of a stripe's places on a plate that may be on the wrong side of its edge - bench.
@@ -70,6 +74,8 @@ struct RefereeConstants {
   double deviations = 3;
   // Spacings of stripes: an end of which no more is known is not determined - bench.
   double determined = 2;
+  // mm; and no less - bench.
+  double always_determined = 5;
   // Stripes at the seam that must show both plates, at least, and of those that tell, the share.
   int shown_stripes = 3;
   double shown_share = 0.6;

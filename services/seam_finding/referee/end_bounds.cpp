@@ -69,13 +69,19 @@ Split best_split(const Known& known) {
 // What one stripe shows between two distances from the seam.
 class StripeEvidence {
  public:
-  StripeEvidence(const StripeOnPlate& stripe, double from, double to, double end, double outward)
-      : stripe_(stripe), from_(from), to_(to), end_(end), outward_(outward) {
+  // begin: of the plate, away from the seam; to: from there.
+  StripeEvidence(const StripeOnPlate& stripe, double begin, double to, double end, double outward)
+      : stripe_(stripe),
+        begin_(begin),
+        from_(begin + kReferee.first_place),
+        to_(begin + to),
+        end_(end),
+        outward_(outward) {
     for (const Place& place : stripe.places) {
-      if (place.away < from) continue;
+      if (place.away < from_) continue;
       if (place.look == Look::kBefore)
         nothing_before_ = false;  // its shadow falls anywhere
-      else if (place.away <= to)
+      else if (place.away <= to_)
         known_.push_back(&place);
     }
   }
@@ -100,7 +106,7 @@ class StripeEvidence {
 
  private:
   Mark mark(double away) const {
-    return {outward_ * (stripe_.crossing + stripe_.lean * away - end_), away};
+    return {outward_ * (stripe_.crossing + stripe_.lean * away - end_), away - begin_};
   }
 
   void add(int begin, int behind, Look look, std::vector<Mark>& marks) const {
@@ -111,7 +117,7 @@ class StripeEvidence {
       last = known_[i];
     }
     for (const Place* place : {first, last})
-      if (place) marks.push_back({outward_ * (place->along - end_), place->away});
+      if (place) marks.push_back({outward_ * (place->along - end_), place->away - begin_});
   }
 
   void add_dark(double from, double to, Evidence& evidence) const {
@@ -129,7 +135,7 @@ class StripeEvidence {
   }
 
   const StripeOnPlate& stripe_;
-  double from_, to_, end_, outward_;
+  double begin_, from_, to_, end_, outward_;
   Known known_;
   bool nothing_before_ = true;
 };
@@ -138,6 +144,7 @@ struct Interval {
   double least, most;
 };
 
+// An edge as straight as it is found to be: waves of a flame's cut are as far off it as they are.
 struct EdgeFit {
   Interval foot{-kInfinite, kInfinite};  // where the edge meets the seam, outward; mm
   double contradicting = 0;              // stripes that it cannot satisfy; dark ones count less
@@ -170,7 +177,7 @@ double narrow(std::vector<Limit>& limits, Interval& result) {
   return best;
 }
 
-EdgeFit fit_edge(const std::vector<Evidence>& all) {
+EdgeFit fit_edge(const std::vector<Evidence>& all, double play) {
   EdgeFit fit;
   for (const Evidence& evidence : all) fit.crossings += evidence.crosses();
   fit.contradicting = kInfinite;
@@ -184,10 +191,9 @@ EdgeFit fit_edge(const std::vector<Evidence>& all) {
       for (const Mark& mark : evidence.on) least = std::max(least, mark.out - slope * mark.away);
       for (const Mark& mark : evidence.off) most = std::min(most, mark.out - slope * mark.away);
       for (const Mark& mark : evidence.dark) dark = std::min(dark, mark.out - slope * mark.away);
-      if (std::isfinite(least)) limits.push_back({least - kReferee.place, true, 1});
-      if (std::isfinite(most)) limits.push_back({most + kReferee.place, false, 1});
-      if (std::isfinite(dark))
-        limits.push_back({dark + kReferee.place, false, kReferee.dark_weight});
+      if (std::isfinite(least)) limits.push_back({least - play, true, 1});
+      if (std::isfinite(most)) limits.push_back({most + play, false, 1});
+      if (std::isfinite(dark)) limits.push_back({dark + play, false, kReferee.dark_weight});
     }
     Interval foot{};
     const double contradicting = narrow(limits, foot);
@@ -268,17 +274,22 @@ std::vector<bool> in_own_shadow(const PlateView& view,
 
 EdgeFit fit_within(const PlateView& view, const std::vector<const StripeOnPlate*>& stripes,
                    const std::vector<bool>& own_shadow, double width, double end, double outward) {
-  const double from = view.plate.inset + kReferee.beside_seam;
   std::vector<Evidence> evidence;
   bool dark_beyond = false;
   for (std::size_t i = stripes.size(); i-- > 0;) {
     // The shadow goes on along a slanting edge.
     const bool slanting = dark_beyond && at_seam(view, *stripes[i]) == AtSeam::kOn;
-    const StripeEvidence stripe(*stripes[i], from, width, end, outward);
+    const StripeEvidence stripe(*stripes[i], view.plate.inset, width, end, outward);
     evidence.push_back(stripe.take(own_shadow[i] || slanting));
     dark_beyond = !evidence.back().dark.empty();
   }
-  return fit_edge(evidence);
+  EdgeFit fit = fit_edge(evidence, kReferee.place);
+  for (double play = 2 * kReferee.place; fit.contradicting > 1 && play <= kReferee.largest_wave;
+       play *= 2) {
+    const EdgeFit waved = fit_edge(evidence, play);
+    if (waved.contradicting < fit.contradicting - kSame) fit = waved;
+  }
+  return fit;
 }
 
 }  // namespace
@@ -299,11 +310,12 @@ EndBounds bounds_of(const PlateView& view, SeamSide side, double end, double spa
   const auto stripes = stripes_about(view, outward, end, spacing);
   if (stripes.empty()) return bounds;
   bounds.anchored = true;
-  const double near = view.plate.inset + kReferee.beside_seam + kReferee.near_seam;
+  const double near = kReferee.beside_seam + kReferee.near_seam;
+  const double width = view.width - view.plate.inset;
   const std::vector<bool> own_shadow = in_own_shadow(view, stripes, spacing);
   const EdgeFit beside = fit_within(view, stripes, own_shadow, near, end, outward);
   const EdgeFit whole =
-      view.width > near ? fit_within(view, stripes, own_shadow, view.width, end, outward) : beside;
+      width > near ? fit_within(view, stripes, own_shadow, width, end, outward) : beside;
   bounds.crossings = whole.crossings;
   bounds.straight = whole.contradicting <= kReferee.contradicting * whole.crossings;
   Interval foot = beside.foot;

@@ -37,7 +37,8 @@ class EndRuling {
     const bool open =
         visibility() == EndVisibility::kOutside || visibility() == EndVisibility::kHidden;
     if (open) return without_deviation();
-    if (!(farthest <= kReferee.determined * examination_.spacing))
+    if (!(farthest <=
+          std::max(kReferee.always_determined, kReferee.determined * examination_.spacing)))
       return undetermined(Code::kStartLooselyBounded, Code::kEndLooselyBounded, farthest);
     set_reach(farthest);
     remark(Code::kStartBounded, Code::kEndBounded, farthest);
