@@ -107,6 +107,17 @@ std::string about_no_seam(const Reason& reason) {
           "the stripes contradict the seam that was found: {:.0f} of {:.0f} along it show both "
           "plates",
           reason.number, reason.of);
+    case Code::kSeamNotCrossed:
+      return "the stripes run along the seam that was found: they cannot tell it";
+    case Code::kNoEdgeAtSeam:
+      return fmt::format(
+          "the stripes contradict the seam that was found: {:.0f} of {:.0f} leave a plate there",
+          reason.number, reason.of);
+    case Code::kPlateTooNarrow:
+      return fmt::format(
+          "the stripes contradict the seam that was found: a plate is {:.1f} mm wide, as an edge "
+          "is",
+          reason.number);
     case Code::kPlateNotShown:
       return "the stripes contradict the seam that was found: they do not show one of its plates";
     case Code::kPlateTurned:

@@ -50,10 +50,13 @@ struct Reason {
     kSimilarScores,     // number, of: seams, within that factor
     kDrawsDisagree,     // number, of, most: draws with a seam, of so many, on the same one
     // The referee's: stripes show something else than the seam that was found.
-    kSeamNotShown,   // number, of: stripes that show both plates, of those at the seam that tell
-    kPlateNotShown,  // hardly a point lies where a plate is claimed
-    kPlateTurned,    // number: a plate's tilt against what is claimed; rad
-    kPlateRound,     // number: radius; mm
+    kSeamNotShown,    // number, of: stripes that show both plates, of those at the seam that tell
+    kSeamNotCrossed,  // the stripes run along it
+    kNoEdgeAtSeam,    // number, of: stripes that leave the plate at the seam, of so many there
+    kPlateTooNarrow,  // number: its width; mm
+    kPlateNotShown,   // hardly a point lies where a plate is claimed
+    kPlateTurned,     // number: a plate's tilt against what is claimed; rad
+    kPlateRound,      // number: radius; mm
 
     // What a person should know of a seam that was found.
     kMissingBeforeStart,  // number: stripes

@@ -16,10 +16,20 @@ struct RefereeConstants {
   double reach = 60;
   // mm; a plate counts from there on: nearer, fillets, gaps and reflections are - bench.
   double beside_seam = 1.5;
+  // mm; on the other plate's side of the seam, what is looked at - the widest gap.
+  double across_seam = 5;
+  // mm; from where a plate is claimed to begin, a stripe leaves it no farther off - bench.
+  double edge_off = 1.0;
+  // mm; between neighbouring places of a stripe on a plate, at most - M of 15 in steep sight.
+  double place_gap = 3;
+  // Of the stripes at a seam between parallel plates, those that leave the plates there - bench.
+  double edges_shown = 0.3;
+  // mm; what is narrower is no plate - an end face of sheet.
+  double narrowest = 4.5;
   // mm; along the seam beyond the claimed ends, what is looked at - the longest tool across a seam.
   double beyond = 80;
   // Of a plate's width along the trace for each away, at most: flatter stripes say little of it.
-  double flattest = 4;
+  double flattest = 2;
   // mm; what lies no farther from a plate is of it, at least and at most - bench.
   double least_tolerance = 0.25, most_tolerance = 0.8;
   // mm; a plate's own bend and its waves from robot and calibration, at most - 1 in 100.

@@ -72,19 +72,20 @@ class StripeEvidence {
   StripeEvidence(const StripeOnPlate& stripe, double from, double to, double end, double outward)
       : stripe_(stripe), from_(from), to_(to), end_(end), outward_(outward) {
     for (const Place& place : stripe.places) {
-      if (place.away < from || place.away > to) continue;
+      if (place.away < from) continue;
       if (place.look == Look::kBefore)
-        nothing_before_ = false;
-      else
+        nothing_before_ = false;  // its shadow falls anywhere
+      else if (place.away <= to)
         known_.push_back(&place);
     }
   }
 
-  // after_plate: the stripe before it, from inside, shows the plate, so that this one would.
-  Evidence take(bool after_plate) const {
+  // Dark stretches count where `dark_counts`.
+  Evidence take(bool dark_counts) const {
     Evidence evidence;
+    dark_counts = dark_counts && nothing_before_;
     if (known_.empty()) {
-      if (nothing_before_ && after_plate) add_dark(from_, to_, evidence);
+      if (dark_counts) add_dark(from_, to_, evidence);
       return evidence;
     }
     const Split split = best_split(known_);
@@ -93,7 +94,7 @@ class StripeEvidence {
     add(split.on_first ? 0 : split.at, split.on_first ? split.at : all, Look::kOn, evidence.on);
     add(split.on_first ? split.at : 0, split.on_first ? all : split.at, Look::kThrough,
         evidence.off);
-    if (nothing_before_) add_dark_beside(evidence);
+    if (dark_counts) add_dark_beside(evidence);
     return evidence;
   }
 
@@ -237,11 +238,13 @@ EdgeFit fit_within(const PlateView& view, const std::vector<const StripeOnPlate*
                    double width, double end, double outward) {
   const double from = view.plate.inset + kReferee.beside_seam;
   std::vector<Evidence> evidence;
-  bool after_plate = false;
-  for (const StripeOnPlate* stripe : stripes) {
-    evidence.push_back(StripeEvidence(*stripe, from, width, end, outward).take(after_plate));
-    if (!evidence.back().on.empty()) after_plate = true;
-    if (at_seam(view, *stripe) == AtSeam::kHidden) after_plate = false;
+  // Dark is what lies between the plate and what is seen behind it; beside something that hides it
+  // may be its shadow.
+  bool off_beyond = false;
+  for (auto stripe = stripes.rbegin(); stripe != stripes.rend(); ++stripe) {
+    const AtSeam seen = at_seam(view, **stripe);
+    evidence.push_back(StripeEvidence(**stripe, from, width, end, outward).take(off_beyond));
+    if (seen != AtSeam::kUnknown) off_beyond = seen == AtSeam::kOff || seen == AtSeam::kPart;
   }
   return fit_edge(evidence);
 }

@@ -39,7 +39,7 @@ double width_of(const PlateView& view, double length, double tolerance) {
     double reached = -1;
     int others = 0;  // in a row
     for (const Place& place : stripe.places) {
-      if (place.along < 0 || place.along > length) continue;
+      if (place.away < view.plate.inset || place.along < 0 || place.along > length) continue;
       others = place.look == Look::kOn ? 0 : others + 1;
       if (others == kReferee.others_in_a_row && reached >= 0) break;
       if (place.look == Look::kOn) reached = place.away;
@@ -52,11 +52,33 @@ double width_of(const PlateView& view, double length, double tolerance) {
   return std::max(0.0, *quarter - 2 * tolerance);
 }
 
+// risen: over the shape, of the plate in the stripe before; then in this one.
+void set_looks(const PlateShape& shape, double inset, StripeOnPlate& stripe, double& risen) {
+  std::vector<double> heights;
+  int others = 0;
+  for (Place& place : stripe.places) {
+    const double height = place.height - shape.height_at(place.along, place.away) - risen;
+    place.look = height > shape.tolerance    ? Look::kBefore
+                 : height < -shape.tolerance ? Look::kThrough
+                                             : Look::kOn;
+    if (place.away < inset + kReferee.beside_seam) continue;
+    if (place.look == Look::kOn)
+      heights.push_back(height);
+    else
+      ++others;
+  }
+  if (heights.size() < 3 || static_cast<int>(heights.size()) < others) return;
+  const auto middle = heights.begin() + static_cast<std::ptrdiff_t>(heights.size() / 2);
+  std::nth_element(heights.begin(), middle, heights.end());
+  risen += *middle;
+}
+
 }  // namespace
 
 double PlateShape::height_at_seam(double along) const {
-  const double x = std::clamp(along - middle, -half, half);
-  return bend(0) + bend(1) * x + bend(2) * x * x;
+  const double x = along - middle, inside = std::clamp(x, -half, half);
+  return bend(0) + bend(1) * inside + bend(2) * inside * inside +
+         (bend(1) + 2 * bend(2) * inside) * (x - inside);
 }
 
 double PlateShape::height_at(double along, double away) const {
@@ -118,13 +140,18 @@ PlateShape shape_of(const PlateView& view, double length) {
 }
 
 void set_looks(const PlateShape& shape, double length, PlateView& view) {
-  for (StripeOnPlate& stripe : view.stripes)
-    for (Place& place : stripe.places) {
-      const double height = place.height - shape.height_at(place.along, place.away);
-      place.look = height > shape.tolerance    ? Look::kBefore
-                   : height < -shape.tolerance ? Look::kThrough
-                                               : Look::kOn;
-    }
+  // From the seam's middle outward a bent plate is followed stripe by stripe: what shows it says
+  // where the next must show it.
+  std::vector<StripeOnPlate>& stripes = view.stripes;
+  const auto middle = std::partition_point(
+      stripes.begin(), stripes.end(),
+      [&](const StripeOnPlate& stripe) { return stripe.crossing < length / 2; });
+  double risen = 0;
+  for (auto stripe = middle; stripe != stripes.end(); ++stripe)
+    set_looks(shape, view.plate.inset, *stripe, risen);
+  risen = 0;
+  for (auto stripe = middle; stripe != stripes.begin();)
+    set_looks(shape, view.plate.inset, *--stripe, risen);
   view.width = width_of(view, length, shape.tolerance);
 }
 

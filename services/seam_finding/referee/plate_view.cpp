@@ -62,7 +62,9 @@ void add_places(const ScanCloud& cloud, const Frame& frame, const StripeLight& l
       continue;
     last = &point;
     const auto place = place_of(frame, light, point);
-    if (place && place->away > 0 && place->away < kReferee.reach) stripe.places.push_back(*place);
+    if (!place || place->away < -kReferee.across_seam || place->away > kReferee.reach) continue;
+    stripe.places.push_back(*place);
+    stripe.places.back().ends = cloud.origins[i].segment_end;
   }
   std::sort(stripe.places.begin(), stripe.places.end(),
             [](const Place& a, const Place& b) { return a.away < b.away; });

@@ -23,6 +23,7 @@ struct Place {
   double away = 0;    // from the seam, in the plate; mm
   double height = 0;  // of what was seen over the plate's plane, out of the metal; mm
   Look look = Look::kOn;
+  bool ends = false;  // a segment of the stripe ends with it
 };
 
 struct StripeOnPlate {

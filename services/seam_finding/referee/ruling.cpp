@@ -28,17 +28,17 @@ class EndRuling {
     // Between crossing or parallel plates alike: off what is claimed across the seam.
     for (int j = 0; j < 2; ++j) widen_across(j);
     if (!bounds_.anchored) return undetermined(Code::kStartNotShown, Code::kEndNotShown, 0);
-    const double deviation = claimed_deviation();
-    const double allowed = std::max(kReferee.allowed, kReferee.deviations * deviation);
+    const double allowed = std::max(kReferee.allowed, kReferee.deviations * claimed_deviation());
     if (bounds_.least > allowed) return contradicted(bounds_.least);
     if (bounds_.most < -allowed) return contradicted(bounds_.most);
     const double farthest = std::max(bounds_.most, -bounds_.least);
     if (farthest <= allowed) return;
-    if (visibility() == EndVisibility::kOutside || visibility() == EndVisibility::kHidden) return;
-    const double honest = farthest / kReferee.deviations;
-    if (!(honest * kReferee.deviations <= kReferee.determined * examination_.spacing))
+    const bool open =
+        visibility() == EndVisibility::kOutside || visibility() == EndVisibility::kHidden;
+    if (open) return without_deviation();
+    if (!(farthest <= kReferee.determined * examination_.spacing))
       return undetermined(Code::kStartLooselyBounded, Code::kEndLooselyBounded, farthest);
-    if (seam_.accuracy) set_variance_along(seam_.direction, honest * honest, covariance());
+    set_reach(farthest);
     remark(Code::kStartBounded, Code::kEndBounded, farthest);
   }
 
@@ -64,15 +64,23 @@ class EndRuling {
     undetermined(Code::kStartContradicted, Code::kEndContradicted, std::abs(by));
   }
 
+  // Of an end that is not known there is no deviation: what the stripes leave is in the second
+  // place.
   void undetermined(Code start, Code end, double number) {
     visibility() = EndVisibility::kNotDetermined;
-    const double farthest =
-        std::min(kReferee.beyond, std::max(std::abs(bounds_.most), std::abs(bounds_.least)));
-    if (seam_.accuracy)
-      set_variance_along(seam_.direction,
-                         std::max(farthest * farthest, claimed_deviation() * claimed_deviation()),
-                         covariance());
+    without_deviation();
     remark(start, end, number);
+  }
+
+  void without_deviation() {
+    if (seam_.accuracy) covariance().setConstant(-1);
+  }
+
+  // The farthest place where the end may be.
+  void set_reach(double farthest) {
+    if (!seam_.accuracy) return;
+    const double deviation = farthest / kReferee.deviations;
+    set_variance_along(seam_.direction, deviation * deviation, covariance());
   }
 
   void widen_across(int j) {
@@ -92,7 +100,7 @@ class EndRuling {
 }  // namespace
 
 void rule(const Examination& examination, SeamResult& seam) {
-  if (examination.stripes == 0) return;
+  if (examination.stripes == 0 && !examination.contradiction) return;
   seam.checked.stripes = examination.stripes;
   seam.checked.explained = examination.explained;
   seam.checked.worst = 0;

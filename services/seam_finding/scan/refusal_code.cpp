@@ -71,6 +71,12 @@ std::int16_t refusal_code(const Reason& reason) {
       return seam_t::SURFACE_TOO_ROUGH;
     case Code::kSeamNotShown:
       return seam_t::SEAM_NOT_SHOWN;
+    case Code::kSeamNotCrossed:
+      return seam_t::SEAM_NOT_CROSSED;
+    case Code::kNoEdgeAtSeam:
+      return seam_t::NO_EDGE_AT_SEAM;
+    case Code::kPlateTooNarrow:
+      return seam_t::PLATE_IS_EDGE;
     case Code::kPlateNotShown:
       return seam_t::PLATE_NOT_SHOWN;
     case Code::kPlateTurned:

@@ -3,6 +3,7 @@
 #include "services/seam_finding/background/surface_background.hpp"
 #include "services/seam_finding/find_seam.hpp"
 #include "services/seam_finding/paper/find_seam_as_in_the_paper.hpp"
+#include "services/seam_finding/referee/ruling.hpp"
 #include "services/seam_finding/scan/scan_answer.hpp"
 #include "services/seam_finding/scan/seam_message.hpp"
 #include "tests/bench/seam/seam_row.hpp"
@@ -39,7 +40,9 @@ seam_t answer(const synthetic::Scene& scene, const ScanChoice& choice,
   settings.joint_type = joint_type;
   const seam_finding::SurfaceBackground background(empty, settings.background_distance_mm);
   seam_t seam = seam_finding::empty_seam();
-  seam_finding::fill_in(seam, seam_finding::find_seam(work, background, settings, number));
+  SeamResult result = seam_finding::find_seam(work, background, settings, number);
+  rule(examine(work, result), result);
+  seam_finding::fill_in(seam, result);
   return seam;
 }
 

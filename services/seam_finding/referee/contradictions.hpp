@@ -1,0 +1,19 @@
+// What speaks against a seam as a whole, whatever its ends are.
+#pragma once
+
+#include <array>
+
+#include "services/seam_finding/model/reason.hpp"
+#include "services/seam_finding/model/seam.hpp"
+#include "services/seam_finding/referee/plate_shape.hpp"
+#include "services/seam_finding/referee/plate_view.hpp"
+
+namespace arcstart::seam_finding {
+
+// The first of: a plate that is not there, is turned, round or no wider than an edge; plates side
+// by side that do not end at the seam; stripes along it that do not show both plates. None where
+// the stripes bear the seam out. spacing: of the stripes along the seam; mm.
+Reason contradiction_of(const SeamResult& seam, const std::array<PlateView, 2>& views,
+                        const std::array<PlateShape, 2>& shapes, double spacing);
+
+}  // namespace arcstart::seam_finding
