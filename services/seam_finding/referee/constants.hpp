@@ -7,8 +7,8 @@ namespace arcstart::seam_finding {
 struct RefereeConstants {
   // Points of a stripe by which its plane of light is known - all stripes share one plane.
   int light_points = 24;
-  // mm; points that spread less off a line span no plane - the first plate's height.
-  double light_width = 1.0;
+  // mm; points that spread less off a line span no plane - they lie on it to 0.001.
+  double light_width = 0.05;
 
   // mm; a stripe is looked at in points no nearer to each other - a seventh of a spacing.
   double step = 0.5;

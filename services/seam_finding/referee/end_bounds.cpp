@@ -234,17 +234,49 @@ std::vector<const StripeOnPlate*> stripes_about(const PlateView& view, double ou
   return stripes;
 }
 
+// mm; of what a stripe shows behind the plate beside the seam.
+double depth_behind(const PlateView& view, const StripeOnPlate& stripe) {
+  const double from = view.plate.inset + kReferee.beside_seam;
+  double depth = 0;
+  for (const Place& place : stripe.places)
+    if (place.away > from && place.away < from + kReferee.near_seam)
+      depth = std::max(depth, -place.height);
+  return depth;
+}
+
+// Dark stripes between one that shows the plate and one that shows what lies behind it are the
+// shadow of the plate's own edge, where they reach no farther than that can; else something may
+// hide the plate there. True for those, and for the stripe on the plate next to them.
+std::vector<bool> in_own_shadow(const PlateView& view,
+                                const std::vector<const StripeOnPlate*>& stripes, double spacing) {
+  std::vector<bool> own(stripes.size(), false);
+  for (std::size_t i = stripes.size(); i-- > 1;) {
+    if (at_seam(view, *stripes[i]) != AtSeam::kOff) continue;
+    std::size_t inner = i;
+    while (inner > 0 && at_seam(view, *stripes[inner - 1]) == AtSeam::kUnknown) --inner;
+    if (inner == 0) continue;
+    const AtSeam seen = at_seam(view, *stripes[inner - 1]);
+    if (seen != AtSeam::kOn && seen != AtSeam::kPart) continue;
+    const double dark =
+        inner == i ? 0 : std::abs(stripes[inner]->crossing - stripes[i - 1]->crossing);
+    if (dark > depth_behind(view, *stripes[i]) * stripes[i]->shadow + spacing / 2) continue;
+    std::fill(own.begin() + static_cast<std::ptrdiff_t>(inner - 1),
+              own.begin() + static_cast<std::ptrdiff_t>(i), true);
+  }
+  return own;
+}
+
 EdgeFit fit_within(const PlateView& view, const std::vector<const StripeOnPlate*>& stripes,
-                   double width, double end, double outward) {
+                   const std::vector<bool>& own_shadow, double width, double end, double outward) {
   const double from = view.plate.inset + kReferee.beside_seam;
   std::vector<Evidence> evidence;
-  // Dark is what lies between the plate and what is seen behind it; beside something that hides it
-  // may be its shadow.
-  bool off_beyond = false;
-  for (auto stripe = stripes.rbegin(); stripe != stripes.rend(); ++stripe) {
-    const AtSeam seen = at_seam(view, **stripe);
-    evidence.push_back(StripeEvidence(**stripe, from, width, end, outward).take(off_beyond));
-    if (seen != AtSeam::kUnknown) off_beyond = seen == AtSeam::kOff || seen == AtSeam::kPart;
+  bool dark_beyond = false;
+  for (std::size_t i = stripes.size(); i-- > 0;) {
+    // The shadow goes on along a slanting edge.
+    const bool slanting = dark_beyond && at_seam(view, *stripes[i]) == AtSeam::kOn;
+    const StripeEvidence stripe(*stripes[i], from, width, end, outward);
+    evidence.push_back(stripe.take(own_shadow[i] || slanting));
+    dark_beyond = !evidence.back().dark.empty();
   }
   return fit_edge(evidence);
 }
@@ -268,9 +300,10 @@ EndBounds bounds_of(const PlateView& view, SeamSide side, double end, double spa
   if (stripes.empty()) return bounds;
   bounds.anchored = true;
   const double near = view.plate.inset + kReferee.beside_seam + kReferee.near_seam;
-  const EdgeFit beside = fit_within(view, stripes, near, end, outward);
+  const std::vector<bool> own_shadow = in_own_shadow(view, stripes, spacing);
+  const EdgeFit beside = fit_within(view, stripes, own_shadow, near, end, outward);
   const EdgeFit whole =
-      view.width > near ? fit_within(view, stripes, view.width, end, outward) : beside;
+      view.width > near ? fit_within(view, stripes, own_shadow, view.width, end, outward) : beside;
   bounds.crossings = whole.crossings;
   bounds.straight = whole.contradicting <= kReferee.contradicting * whole.crossings;
   Interval foot = beside.foot;

@@ -41,13 +41,23 @@ std::optional<Place> place_of(const Frame& frame, const StripeLight& light,
   return place;
 }
 
-// The light's trace on the plate; false where it runs along the seam, or the source is behind.
-bool set_trace(const Frame& frame, const StripeLight& light, StripeOnPlate& stripe) {
-  if (frame.plane.signed_distance(light.source) <= 0) return false;
+// Along the seam for each mm toward the plate, of a ray from there to a place on it.
+double slant_of(const Frame& frame, const Eigen::Vector3d& from, const Eigen::Vector3d& place) {
+  return std::abs(frame.along.dot(from - place) / frame.plane.signed_distance(from));
+}
+
+// The light's trace on the plate; false where it runs along the seam, or light or camera are behind
+// the plate.
+bool set_trace(const Frame& frame, const StripeLight& light, const Eigen::Vector3d& camera,
+               StripeOnPlate& stripe) {
+  if (frame.plane.signed_distance(light.source) <= 0 || frame.plane.signed_distance(camera) <= 0)
+    return false;
   const double slope = light.plane.normal.dot(frame.along);
   if (std::abs(slope) < 1e-3) return false;
   stripe.crossing = -light.plane.signed_distance(frame.origin) / slope;
   stripe.lean = -light.plane.normal.dot(frame.away) / slope;
+  const Eigen::Vector3d place = frame.origin + stripe.crossing * frame.along;
+  stripe.shadow = std::max(slant_of(frame, light.source, place), slant_of(frame, camera, place));
   return std::abs(stripe.lean) < kReferee.flattest;
 }
 
@@ -82,7 +92,7 @@ PlateView view_of(const ScanCloud& cloud, const std::vector<std::optional<Stripe
     if (!lights[k]) continue;
     StripeOnPlate stripe;
     stripe.stripe = static_cast<int>(k);
-    if (!set_trace(frame, *lights[k], stripe)) continue;
+    if (!set_trace(frame, *lights[k], cloud.stripes[k].camera_centre, stripe)) continue;
     if (stripe.crossing < -kReferee.beyond || stripe.crossing > length + kReferee.beyond) continue;
     add_places(cloud, frame, *lights[k], stripe);
     view.stripes.push_back(std::move(stripe));

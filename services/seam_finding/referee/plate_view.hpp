@@ -27,9 +27,11 @@ struct Place {
 };
 
 struct StripeOnPlate {
-  int stripe = 0;             // index
-  double crossing = 0;        // along, where the stripe's light crosses the seam; mm
-  double lean = 0;            // along for each away, of the light's trace on the plate
+  int stripe = 0;       // index
+  double crossing = 0;  // along, where the stripe's light crosses the seam; mm
+  double lean = 0;      // along for each away, of the light's trace on the plate
+  double shadow = 0;  // along, that an edge hides of what lies 1 mm behind the plate; from light or
+                      // camera, the longer
   std::vector<Place> places;  // by rising away
 };
 

@@ -27,6 +27,7 @@ class EndRuling {
   void rule() {
     // Between crossing or parallel plates alike: off what is claimed across the seam.
     for (int j = 0; j < 2; ++j) widen_across(j);
+    if (visibility() == EndVisibility::kNotDetermined) return without_deviation();
     if (!bounds_.anchored) return undetermined(Code::kStartNotShown, Code::kEndNotShown, 0);
     const double allowed = std::max(kReferee.allowed, kReferee.deviations * claimed_deviation());
     if (bounds_.least > allowed) return contradicted(bounds_.least);
