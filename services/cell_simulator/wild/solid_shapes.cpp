@@ -54,24 +54,26 @@ TriangleMesh own_mesh(const WildSolid& solid) {
                    " is none of block, round, hexagon, ball, cable, hammer, pliers");
 }
 
-// Parts a triangle at x = at; the parts below come first.
-void part(const std::array<Eigen::Vector3d, 3>& t, double at,
-          std::vector<std::array<Eigen::Vector3d, 3>>& below,
-          std::vector<std::array<Eigen::Vector3d, 3>>& above) {
-  std::vector<Eigen::Vector3d> low, high;
-  for (int i = 0; i < 3; ++i) {
-    const Eigen::Vector3d &p = t[i], &q = t[(i + 1) % 3];
-    (p.x() <= at ? low : high).push_back(p);
-    if ((p.x() <= at) != (q.x() <= at)) {
-      Eigen::Vector3d middle = p + (q - p) * ((at - p.x()) / (q.x() - p.x()));
-      middle.x() = at;
-      low.push_back(middle);
-      high.push_back(middle);
-    }
+using Outline = std::vector<Eigen::Vector3d>;  // convex, flat
+
+// Parts an outline at x = at.
+void part(const Outline& outline, double at, Outline& below, Outline& above) {
+  for (std::size_t i = 0; i < outline.size(); ++i) {
+    const Eigen::Vector3d &p = outline[i], &q = outline[(i + 1) % outline.size()];
+    (p.x() <= at ? below : above).push_back(p);
+    if ((p.x() <= at) == (q.x() <= at)) continue;
+    Eigen::Vector3d middle = p + (q - p) * ((at - p.x()) / (q.x() - p.x()));
+    middle.x() = at;
+    below.push_back(middle);
+    above.push_back(middle);
   }
-  for (std::size_t i = 1; i + 1 < low.size(); ++i) below.push_back({low[0], low[i], low[i + 1]});
-  for (std::size_t i = 1; i + 1 < high.size(); ++i)
-    above.push_back({high[0], high[i], high[i + 1]});
+}
+
+void append(TriangleMesh& mesh, const Outline& outline) {
+  const int first = static_cast<int>(mesh.corners.size());
+  mesh.corners.insert(mesh.corners.end(), outline.begin(), outline.end());
+  for (int i = 1; i + 1 < static_cast<int>(outline.size()); ++i)
+    mesh.triangles.push_back({first, first + i, first + i + 1});
 }
 
 }  // namespace
@@ -112,28 +114,17 @@ TriangleMesh make_capsule(double length, double radius) {
 }
 
 TriangleMesh sliced(const TriangleMesh& mesh, double step) {
-  using Corners = std::array<Eigen::Vector3d, 3>;
   TriangleMesh result;
   for (const auto& [a, b, c] : mesh.triangles) {
-    std::vector<Corners> left{{mesh.corners[a], mesh.corners[b], mesh.corners[c]}};
-    double low = left[0][0].x(), high = low;
-    for (const Eigen::Vector3d& p : left[0])
-      low = std::min(low, p.x()), high = std::max(high, p.x());
+    Outline left{mesh.corners[a], mesh.corners[b], mesh.corners[c]};
+    const auto [low, high] = std::minmax({left[0].x(), left[1].x(), left[2].x()});
     for (double at = (std::floor(low / step) + 1) * step; at < high; at += step) {
-      std::vector<Corners> below, above;
-      for (const Corners& t : left) part(t, at, below, above);
-      for (const Corners& t : below) {
-        const int first = static_cast<int>(result.corners.size());
-        result.corners.insert(result.corners.end(), t.begin(), t.end());
-        result.triangles.push_back({first, first + 1, first + 2});
-      }
+      Outline below, above;
+      part(left, at, below, above);
+      append(result, below);
       left = std::move(above);
     }
-    for (const Corners& t : left) {
-      const int first = static_cast<int>(result.corners.size());
-      result.corners.insert(result.corners.end(), t.begin(), t.end());
-      result.triangles.push_back({first, first + 1, first + 2});
-    }
+    append(result, left);
   }
   return result;
 }

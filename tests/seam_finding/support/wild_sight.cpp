@@ -13,6 +13,7 @@ using Eigen::Vector3d;
 constexpr double least_shown_mm = 1.5;  // of a plate within reach, for it to count as seen
 constexpr double edge_mm = 0.05;        // how near to the edge a line on the plate ends
 constexpr double edge_reach_mm = 40;    // how far from the seam such a place tells of its end
+constexpr double along_edge = 0.05;     // sine of the least angle at which a line crosses the edge
 constexpr double same_way = 0.9;        // cosine between a triangle's and the plate's normal
 constexpr double window_spacings = 4;   // of stripes inside the seam that show its end
 
@@ -53,8 +54,8 @@ bool WildSightings::leaves_over(const std::vector<WildPiece>& pieces, const Wild
       const Line edge{end.edge_points[plate], end.edge_directions[plate]};
       for (const Vector3d* p : {&piece.begin, &piece.end})
         if (edge.distance(*p) < edge_mm + end.edge_play_mm[plate] &&
-            std::abs(edge.along(*p)) < edge_reach_mm && std::abs(edge.along(*p)) < 1e9 &&
-            (piece.end - piece.begin).normalized().cross(edge.direction).norm() > 0.05)
+            std::abs(edge.along(*p)) < edge_reach_mm &&
+            (piece.end - piece.begin).normalized().cross(edge.direction).norm() > along_edge)
           return true;
     }
   return false;

@@ -23,8 +23,8 @@ struct Falsified {
 // Of a right answer whose start is seen. moved: an end by one and a half spacings and three
 // deviations; neighbour: by 2 to 8 spacings, as where another plate's edge is taken for it; both
 // both ways, outward as far as the scan goes on beside the seam. turned: a plate by a degree about
-// the seam. swapped: the plates' faces. Ends that are not seen are left alone.
-// spacing: of the stripes along the seam; mm. seed: of the drawn lengths.
+// the seam. swapped: the plates' faces, where they are not one. Ends that are not seen are left
+// alone. spacing: of the stripes along the seam; mm. seed: of the drawn lengths.
 std::vector<Falsified> falsified(const seam_finding::SeamResult& seam,
                                  const seam_finding::ScanCloud& cloud, double spacing,
                                  std::uint64_t seed);

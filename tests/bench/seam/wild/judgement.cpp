@@ -57,12 +57,17 @@ double ratio_of(double error, double deviation, double matters) {
   return std::abs(error) > matters / sure ? std::abs(error) / std::max(deviation, least) : 0;
 }
 
-PlaceError place_error(const Axes& axes, const Vector3d& error, double open,
+// open: along the seam; beside: across it and in height.
+struct Open {
+  double along = 0, beside = 0;
+};
+
+PlaceError place_error(const Axes& axes, const Vector3d& error, const Open& open,
                        const Matrix3d& covariance) {
   PlaceError place;
-  place.along = beyond(axes.along.dot(error), open);
-  place.across = axes.across.dot(error);
-  if (!axes.bent) place.height = axes.height.dot(error);
+  place.along = beyond(axes.along.dot(error), open.along);
+  place.across = beyond(axes.across.dot(error), open.beside);
+  if (!axes.bent) place.height = beyond(axes.height.dot(error), open.beside);
   if (covariance(0, 0) < 0) return place;
   place.deviation = deviation_in(axes.along, covariance);
   const double beside = deviation_in(axes.across, covariance),
@@ -83,8 +88,8 @@ std::string told(const PlaceError& place) {
 
 class Judge {
  public:
-  Judge(const seam_t& seam, const WildSeam& truth, WildJudgement& judgement)
-      : seam_(seam), truth_(truth), axes_(truth), judgement_(judgement) {}
+  Judge(const seam_t& seam, const WildSeam& truth, double robot, WildJudgement& judgement)
+      : seam_(seam), truth_(truth), axes_(truth), robot_(robot), judgement_(judgement) {}
 
   void judge() {
     judgement_.start = end_of(seam_.start, seam_.start_covariance, truth_.start);
@@ -99,7 +104,8 @@ class Judge {
  private:
   PlaceError end_of(const double (&place)[3], const double (&covariance)[3][3],
                     const WildEnd& end) const {
-    return place_error(axes_, Vector(place) - end.point, end.play_mm, Matrix(&covariance[0][0]));
+    return place_error(axes_, Vector(place) - end.point, {end.play_mm + robot_, robot_},
+                       Matrix(&covariance[0][0]));
   }
 
   void take(const PlaceError& place, SilentError::Where where, const char* what,
@@ -119,7 +125,7 @@ class Judge {
     for (const seam_station_t& station : seam_.stations) {
       PlaceError place, other;
       const Vector3d error = Vector(station.position) - truth_.start.point;
-      constexpr double free = 1e6;  // mm
+      const Open free{1e6, robot_};
       place = place_error(axes_, error, free, start);
       other = place_error(axes_, error, free, end);
       const PlaceError& milder = place.ratio < other.ratio ? place : other;
@@ -174,6 +180,7 @@ class Judge {
   const seam_t& seam_;
   const WildSeam& truth_;
   const Axes axes_;
+  double robot_;  // mm, that are open on account of the robot
   WildJudgement& judgement_;
 };
 
@@ -198,7 +205,7 @@ bool WildJudgement::silently(SilentError::Where where) const {
                      [&](const SilentError& error) { return error.where == where; });
 }
 
-WildJudgement judge(const seam_t& seam, const WildTruth& truth) {
+WildJudgement judge(const seam_t& seam, const WildTruth& truth, double robot_mm) {
   WildJudgement judgement;
   judgement.found = seam.verdict == seam_t::FOUND;
   if (!judgement.found) return judgement;
@@ -209,7 +216,13 @@ WildJudgement judge(const seam_t& seam, const WildTruth& truth) {
   }
   judgement.right = judgement.seam >= 0;
   if (judgement.right) {
-    Judge(seam, truth.seams[judgement.seam], judgement).judge();
+    Judge(seam, truth.seams[judgement.seam], 0, judgement).judge();
+    if (robot_mm > 0 && !judgement.silent.empty()) {
+      // Two axes at once, for the seam runs askew.
+      WildJudgement milder;
+      Judge(seam, truth.seams[judgement.seam], std::sqrt(2.0) * robot_mm, milder).judge();
+      judgement.by_robot = milder.silent.empty();
+    }
     return judgement;
   }
   constexpr double wrong_ratio = 1e4;  // worse than any error of a right one

@@ -38,12 +38,16 @@ struct WildJudgement {
   double direction = 0;    // deg, likewise
   double worst_ratio = 0;  // error over deviation, of what is off by more than a third of the above
   std::vector<SilentError> silent;
+  // All of these are within what the robot's positions are wrong, which no stripe shows.
+  bool by_robot = false;
 
   bool silently(SilentError::Where where) const;
 };
 
 // Of plates that are bent the seam is judged across it alone, and along it at its ends.
-WildJudgement judge(const seam_t& seam, const cell_simulator::WildTruth& truth);
+// robot_mm: by so much an axis of what the robot says of its place is wrong, at most.
+WildJudgement judge(const seam_t& seam, const cell_simulator::WildTruth& truth,
+                    double robot_mm = 0);
 
 // "SEEN"
 const char* name_of_visibility(std::int8_t visibility);

@@ -83,6 +83,18 @@ TEST_CASE("what the truth leaves open along the seam is no error") {
   CHECK(judge(seam, truth).silently(Where::kStart));
 }
 
+TEST_CASE("what is within the robot's own error is silent, but marked") {
+  seam_t seam = true_answer();
+  seam.start[1] += 0.7;
+  CHECK_FALSE(judge(seam, level_tee()).by_robot);
+  CHECK_FALSE(judge(seam, level_tee(), 0.1).by_robot);  // 0.7 - 0.14 mm
+  const WildJudgement by_robot = judge(seam, level_tee(), 0.4);
+  CHECK(by_robot.by_robot);
+  CHECK(by_robot.silently(Where::kStart));
+  seam.end[0] += 5;
+  CHECK_FALSE(judge(seam, level_tee(), 0.4).by_robot);
+}
+
 TEST_CASE("bent plates are not judged in height") {
   seam_t seam = true_answer();
   seam.start[2] += 0.7;

@@ -27,7 +27,8 @@ void bench_rendered_wild(const WildChoice& choice, nlohmann::json& json) {
               .seam;
       // What is in view is the same of the scan in closed form: its stripes lie in the same places.
       const auto sights = seam_finding::synthetic::wild_scan(scene, SceneKind::workpiece).sights;
-      row.add(facts_of(scene, truth, sights, seed), seam, judge(seam, truth));
+      row.add(facts_of(scene, truth, sights, seed), seam,
+              judge(seam, truth, scene.scan.robot_wave_mm));
     };
     for_each_scene(joint, choice.wanted.first, choice.rendered_seeds, use);
     row.finish(json);

@@ -26,16 +26,17 @@ void bench_wild(const WildChoice& choice, nlohmann::json& json) {
   for (const std::string joint : cell_simulator::wild_joints) {
     if (!choice.wanted.makes(joint)) continue;
     WildRow row(joint + ".wild");
-    for_each_scene(
-        joint, choice.wanted.first, choice.profile_seeds,
-        [&](const cell_simulator::WildScene& scene, int seed) {
-          const WildCase wild(scene);
-          const WildFacts facts = facts_of(scene, wild.truth(), wild.sights(), seed);
-          const seam_t before = wild.answer(false), after = wild.answer(true);
-          const WildJudgement judged[2] = {judge(before, wild.truth()), judge(after, wild.truth())};
-          row.add(facts, choice.referee ? after : before, judged[choice.referee]);
-          table.add(facts, joint, judged[0], judged[1]);
-        });
+    for_each_scene(joint, choice.wanted.first, choice.profile_seeds,
+                   [&](const cell_simulator::WildScene& scene, int seed) {
+                     const WildCase wild(scene);
+                     const WildFacts facts = facts_of(scene, wild.truth(), wild.sights(), seed);
+                     const seam_t before = wild.answer(false), after = wild.answer(true);
+                     const WildJudgement judged[2] = {
+                         judge(before, wild.truth(), scene.scan.robot_wave_mm),
+                         judge(after, wild.truth(), scene.scan.robot_wave_mm)};
+                     row.add(facts, choice.referee ? after : before, judged[choice.referee]);
+                     table.add(facts, joint, judged[0], judged[1]);
+                   });
     row.finish(json);
   }
   table.print();

@@ -25,8 +25,9 @@ void WildRow::add(const WildFacts& facts, const seam_t& seam, const WildJudgemen
   for (const WildSeamSight& sight : facts.sights) in_view = in_view || sight.start.in_view;
   in_view_ += in_view;
   for (const SilentError& error : judgement.silent)
-    fmt::print("  {} seed {}: silent {} | {}\n", name_, facts.seed, error.text,
-               fmt::join(facts.tags, " "));
+    fmt::print("  {} seed {}: silent {}{} | {}\n", name_, facts.seed, error.text,
+               judgement.by_robot ? ", as the robot errs" : "", fmt::join(facts.tags, " "));
+  silent_by_robot_ += judgement.by_robot;
   silent_scenes_ += !judgement.silent.empty();
   silent_start_ += judgement.silently(Where::kStart);
   silent_end_ += judgement.silently(Where::kEnd);
@@ -70,23 +71,26 @@ void WildRow::add_start(const WildFacts& facts, const seam_t& seam,
 
 void print_wild_header() {
   fmt::print(
-      "{:<24} {:>5} {:>5} {:>7} {:>8} {:>5} | silent {:>5} {:>5} {:>5} | start {:>6} {:>6} {:>6} | "
+      "{:<24} {:>5} {:>5} {:>7} {:>8} {:>5} | silent {:>5} {:>5} {:>5} {:>5} | start {:>6} {:>6} "
+      "{:>6} | "
       "crossed {:>6} {:>6} | bounded {:>6} | {:>8} {:>9} {:>8}\n",
-      "row", "n", "wrong", "refused", "answered", "seen", "start", "end", "else", "mean", "95 %",
-      "max", "mean", "95 %", "pitch", "within2s", "beyond3s", "sd_ratio");
+      "row", "n", "wrong", "refused", "answered", "seen", "start", "end", "else", "robot", "mean",
+      "95 %", "max", "mean", "95 %", "pitch", "within2s", "beyond3s", "sd_ratio");
 }
 
 void WildRow::finish(nlohmann::json& json) const {
   const double ratio =
       squared_deviations_ > 0 ? std::sqrt(squared_errors_ / squared_deviations_) : 0;
   fmt::print(
-      "{:<24} {:>5} {:>5} {:>7} {:>8.3f} {:>5.3f} |        {:>5} {:>5} {:>5} |       {:>6.3f} "
+      "{:<24} {:>5} {:>5} {:>7} {:>8.3f} {:>5.3f} |        {:>5} {:>5} {:>5} {:>5} |       "
+      "{:>6.3f} "
       "{:>6.3f} {:>6.3f} |         {:>6.3f} {:>6.3f} |         {:>6.3f} | {:>8.3f} {:>9.4f} "
       "{:>8.2f}\n",
       name_, seeds_, wrong_, refused_, share(answered_, in_view_), share(seen_, crossed_),
-      silent_start_, silent_end_, silent_else_, mean(start_), percentile(start_, 0.95),
-      percentile(start_, 1), mean(crossed_start_), percentile(crossed_start_, 0.95),
-      mean(bounded_start_), share(within_2_, sure_), share(beyond_3_, sure_), ratio);
+      silent_start_, silent_end_, silent_else_, silent_by_robot_, mean(start_),
+      percentile(start_, 0.95), percentile(start_, 1), mean(crossed_start_),
+      percentile(crossed_start_, 0.95), mean(bounded_start_), share(within_2_, sure_),
+      share(beyond_3_, sure_), ratio);
   fmt::print("  {}: refused", name_);
   for (const auto& [code, count] : refusals_) fmt::print(" {} x {},", code, count);
   fmt::print(" {} of them have no seam\n", refused_wrong_parts_);
@@ -99,6 +103,7 @@ void WildRow::finish(nlohmann::json& json) const {
   put("answered", share(answered_, in_view_));
   put("seen", share(seen_, crossed_));
   put("silent", silent_scenes_);
+  put("silent_by_robot", silent_by_robot_);
   put("silent_start", silent_start_);
   put("silent_end", silent_end_);
   put("silent_else", silent_else_);

@@ -45,6 +45,7 @@ class WildRow {
   int seeds_ = 0, wrong_ = 0, refused_ = 0, refused_wrong_parts_ = 0;
   int in_view_ = 0, answered_ = 0, crossed_ = 0, seen_ = 0;
   int silent_start_ = 0, silent_end_ = 0, silent_else_ = 0, silent_scenes_ = 0;
+  int silent_by_robot_ = 0;  // scenes
   int sure_ = 0, within_2_ = 0, beyond_3_ = 0;
   double squared_errors_ = 0, squared_deviations_ = 0;
   std::vector<double> start_, lateral_, direction_, end_, crossed_start_, bounded_start_;
