@@ -26,6 +26,8 @@ struct RefereeConstants {
   double edges_shown = 0.3;
   // mm; what is narrower is no plate - an end face of sheet.
   double narrowest = 4.5;
+  // mm; from where a plate is claimed to begin, it is found no farther off - radius of a section.
+  double farthest_begin = 16;
   // mm; along the seam beyond the claimed ends, what is looked at - the longest tool across a seam.
   double beyond = 80;
   // Of a plate's width along the trace for each away, at most: flatter stripes say little of it.
@@ -70,6 +72,8 @@ struct RefereeConstants {
 
   // mm; an end is not off by less than it may be - half of what is wrong silently.
   double allowed = 0.5;
+  // mm; and is not contradicted by less - a little less than what is.
+  double contradicted = 0.9;
   // Standard deviations of an end that it may be off.
   double deviations = 3;
   // Spacings of stripes: an end of which no more is known is not determined - bench.

@@ -21,14 +21,14 @@ Reason of_shape(const PlateShape& shape, const PlateView& view) {
   const bool round =
       -shape.curvature > 1 / kReferee.round && -shape.curvature > sure * shape.curvature_deviation;
   if (round && shape.width < kReferee.narrow) return {Code::kPlateRound, -1 / shape.curvature};
-  const double width = view.width - view.plate.inset;
+  const double width = view.width - view.begin;
   if (width < kReferee.narrowest) return {Code::kPlateTooNarrow, width};
   return {};
 }
 
 // Where a stripe leaves a plate toward the seam, away from it; nothing where it runs on across.
 std::optional<double> edge_in(const PlateView& view, const StripeOnPlate& stripe) {
-  const double from = view.plate.inset + kReferee.beside_seam;
+  const double from = view.begin + kReferee.beside_seam;
   std::optional<double> last;
   bool ends = false;
   for (auto place = stripe.places.rbegin(); place != stripe.places.rend(); ++place) {

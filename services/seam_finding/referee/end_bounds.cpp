@@ -31,7 +31,7 @@ struct Count {
 };
 
 Count count_beside(const PlateView& view, const StripeOnPlate& stripe, int& before) {
-  const double from = view.plate.inset + kReferee.beside_seam;
+  const double from = view.begin + kReferee.beside_seam;
   Count count;
   for (const Place& place : stripe.places) {
     if (place.away < from || place.away > from + kReferee.near_seam) continue;
@@ -242,7 +242,7 @@ std::vector<const StripeOnPlate*> stripes_about(const PlateView& view, double ou
 
 // mm; of what a stripe shows behind the plate beside the seam.
 double depth_behind(const PlateView& view, const StripeOnPlate& stripe) {
-  const double from = view.plate.inset + kReferee.beside_seam;
+  const double from = view.begin + kReferee.beside_seam;
   double depth = 0;
   for (const Place& place : stripe.places)
     if (place.away > from && place.away < from + kReferee.near_seam)
@@ -279,15 +279,17 @@ EdgeFit fit_within(const PlateView& view, const std::vector<const StripeOnPlate*
   for (std::size_t i = stripes.size(); i-- > 0;) {
     // The shadow goes on along a slanting edge.
     const bool slanting = dark_beyond && at_seam(view, *stripes[i]) == AtSeam::kOn;
-    const StripeEvidence stripe(*stripes[i], view.plate.inset, width, end, outward);
+    const StripeEvidence stripe(*stripes[i], view.begin, width, end, outward);
     evidence.push_back(stripe.take(own_shadow[i] || slanting));
     dark_beyond = !evidence.back().dark.empty();
   }
   EdgeFit fit = fit_edge(evidence, kReferee.place);
   for (double play = 2 * kReferee.place; fit.contradicting > 1 && play <= kReferee.largest_wave;
        play *= 2) {
-    const EdgeFit waved = fit_edge(evidence, play);
-    if (waved.contradicting < fit.contradicting - kSame) fit = waved;
+    EdgeFit waved = fit_edge(evidence, play);
+    if (waved.contradicting > fit.contradicting - kSame) continue;
+    waved.foot.least -= play, waved.foot.most += play;  // it may have a wave right at the seam
+    fit = waved;
   }
   return fit;
 }
@@ -311,7 +313,7 @@ EndBounds bounds_of(const PlateView& view, SeamSide side, double end, double spa
   if (stripes.empty()) return bounds;
   bounds.anchored = true;
   const double near = kReferee.beside_seam + kReferee.near_seam;
-  const double width = view.width - view.plate.inset;
+  const double width = view.width - view.begin;
   const std::vector<bool> own_shadow = in_own_shadow(view, stripes, spacing);
   const EdgeFit beside = fit_within(view, stripes, own_shadow, near, end, outward);
   const EdgeFit whole =

@@ -28,8 +28,7 @@ double explained_by(const std::array<PlateView, 2>& views, double length) {
     for (const StripeOnPlate& stripe : view.stripes)
       for (const Place& place : stripe.places) {
         if (place.along < 0 || place.along > length || place.look == Look::kBefore) continue;
-        if (place.away < view.plate.inset + kReferee.beside_seam || place.away > view.width)
-          continue;
+        if (place.away < view.begin + kReferee.beside_seam || place.away > view.width) continue;
         ++all, on += place.look == Look::kOn;
       }
   return all > 0 ? on / all : -1;

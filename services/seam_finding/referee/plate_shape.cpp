@@ -39,7 +39,7 @@ double width_of(const PlateView& view, double length, double tolerance) {
     double reached = -1;
     int others = 0;  // in a row
     for (const Place& place : stripe.places) {
-      if (place.away < view.plate.inset || place.along < 0 || place.along > length) continue;
+      if (place.away < view.begin || place.along < 0 || place.along > length) continue;
       others = place.look == Look::kOn ? 0 : others + 1;
       if (others == kReferee.others_in_a_row && reached >= 0) break;
       if (place.look == Look::kOn) reached = place.away;
@@ -53,7 +53,7 @@ double width_of(const PlateView& view, double length, double tolerance) {
 }
 
 // risen: over the shape, of the plate in the stripe before; then in this one.
-void set_looks(const PlateShape& shape, double inset, StripeOnPlate& stripe, double& risen) {
+void set_looks(const PlateShape& shape, double begin, StripeOnPlate& stripe, double& risen) {
   std::vector<double> heights;
   int others = 0;
   for (Place& place : stripe.places) {
@@ -61,7 +61,7 @@ void set_looks(const PlateShape& shape, double inset, StripeOnPlate& stripe, dou
     place.look = height > shape.tolerance    ? Look::kBefore
                  : height < -shape.tolerance ? Look::kThrough
                                              : Look::kOn;
-    if (place.away < inset + kReferee.beside_seam) continue;
+    if (place.away < begin + kReferee.beside_seam) continue;
     if (place.look == Look::kOn)
       heights.push_back(height);
     else
@@ -87,8 +87,7 @@ double PlateShape::height_at(double along, double away) const {
 
 PlateShape shape_of(const PlateView& view, double length) {
   PlateShape shape;
-  Scale scale{length / 2, length / 2, view.plate.inset + kReferee.beside_seam,
-              kReferee.shape_width};
+  Scale scale{length / 2, length / 2, view.begin + kReferee.beside_seam, kReferee.shape_width};
   shape.tolerance = kReferee.most_tolerance;
   shape.middle = scale.middle, shape.half = scale.half;
   Terms solution = Terms::Zero();
@@ -148,10 +147,10 @@ void set_looks(const PlateShape& shape, double length, PlateView& view) {
       [&](const StripeOnPlate& stripe) { return stripe.crossing < length / 2; });
   double risen = 0;
   for (auto stripe = middle; stripe != stripes.end(); ++stripe)
-    set_looks(shape, view.plate.inset, *stripe, risen);
+    set_looks(shape, view.begin, *stripe, risen);
   risen = 0;
   for (auto stripe = middle; stripe != stripes.begin();)
-    set_looks(shape, view.plate.inset, *--stripe, risen);
+    set_looks(shape, view.begin, *--stripe, risen);
   view.width = width_of(view, length, shape.tolerance);
 }
 

@@ -80,6 +80,31 @@ void add_places(const ScanCloud& cloud, const Frame& frame, const StripeLight& l
             [](const Place& a, const Place& b) { return a.away < b.away; });
 }
 
+// Of most stripes at the middle of the seam: the first of two places in a row on the claimed plane.
+double begin_of(const PlateView& view, double length) {
+  std::vector<double> begins;
+  for (const StripeOnPlate& stripe : view.stripes) {
+    if (stripe.crossing < length / 5 || stripe.crossing > length * 4 / 5) continue;
+    const Place* last = nullptr;
+    for (const Place& place : stripe.places) {
+      if (place.away < view.plate.inset) continue;
+      const bool on = std::abs(place.height) < kReferee.bend;
+      if (on && last) {
+        begins.push_back(last->away);
+        break;
+      }
+      last = on ? &place : nullptr;
+    }
+  }
+  if (begins.empty()) return view.plate.inset;
+  const auto most = begins.begin() + static_cast<std::ptrdiff_t>(begins.size() * 3 / 4);
+  std::nth_element(begins.begin(), most, begins.end());
+  // What is nearer than the places stand to each other is the seam itself.
+  return *most < view.plate.inset + kReferee.beside_seam
+             ? view.plate.inset
+             : std::min(*most, view.plate.inset + kReferee.farthest_begin);
+}
+
 }  // namespace
 
 PlateView view_of(const ScanCloud& cloud, const std::vector<std::optional<StripeLight>>& lights,
@@ -99,6 +124,7 @@ PlateView view_of(const ScanCloud& cloud, const std::vector<std::optional<Stripe
   }
   std::sort(view.stripes.begin(), view.stripes.end(),
             [](const StripeOnPlate& a, const StripeOnPlate& b) { return a.crossing < b.crossing; });
+  view.begin = begin_of(view, length);
   return view;
 }
 

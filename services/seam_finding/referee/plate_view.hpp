@@ -38,11 +38,14 @@ struct StripeOnPlate {
 // Of one plate: the stripes within reach of the seam, in order of their crossings.
 struct PlateView {
   SeamPlate plate;
+  double begin = 0;  // away from the seam, where the plate is found to begin: behind a gap, a
+                     // radius or a bead; mm
   double width = 0;  // away from the seam, as far as the plate was seen between the ends; mm
   std::vector<StripeOnPlate> stripes;
 };
 
-// heights as they are, everything kOn: what they mean is told by set_looks().
+// heights as they are, everything kOn: what they mean is told by set_looks(). begin: by the heights
+// over the claimed plane, along the middle of the seam.
 PlateView view_of(const ScanCloud& cloud, const std::vector<std::optional<StripeLight>>& lights,
                   const SeamResult& seam, int plate);
 

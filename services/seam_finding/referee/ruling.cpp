@@ -30,8 +30,9 @@ class EndRuling {
     if (visibility() == EndVisibility::kNotDetermined) return without_deviation();
     if (!bounds_.anchored) return undetermined(Code::kStartNotShown, Code::kEndNotShown, 0);
     const double allowed = std::max(kReferee.allowed, kReferee.deviations * claimed_deviation());
-    if (bounds_.least > allowed) return contradicted(bounds_.least);
-    if (bounds_.most < -allowed) return contradicted(bounds_.most);
+    const double too_far = std::max(kReferee.contradicted, allowed);
+    if (bounds_.least > too_far) return contradicted(bounds_.least);
+    if (bounds_.most < -too_far) return contradicted(bounds_.most);
     const double farthest = std::max(bounds_.most, -bounds_.least);
     if (farthest <= allowed) return;
     const bool open =
