@@ -29,7 +29,7 @@ robot_pose_t position(std::int64_t utime, std::int64_t run_id, std::int64_t seq)
   return pose;
 }
 
-constexpr std::int64_t kSecond = 1'000'000;
+constexpr std::int64_t kOneSecond = 1'000'000;
 
 const nlohmann::json& line(const nlohmann::json& list, const std::string& channel) {
   for (const auto& entry : list)
@@ -42,7 +42,7 @@ const nlohmann::json& line(const nlohmann::json& list, const std::string& channe
 
 TEST_CASE("rate and size are those of what came") {
   Traffic traffic;
-  std::int64_t now = 100 * kSecond;
+  std::int64_t now = 100 * kOneSecond;
   traffic.tick(now);
   for (int i = 0; i < 500; ++i) {  // 10 s at 50 Hz
     now += 20'000;
@@ -60,7 +60,7 @@ TEST_CASE("rate and size are those of what came") {
   CHECK_FALSE(line(list, "OTHER").contains("gaps"));
 
   // Silent for 5 s: the rate is 0 and the age grows.
-  for (int i = 0; i < 6; ++i) traffic.tick(now += kSecond);
+  for (int i = 0; i < 6; ++i) traffic.tick(now += kOneSecond);
   CHECK(line(traffic.json(now, now), "ROBOT0_POSE")["rate_hz"] == 0);
   CHECK(line(traffic.json(now, now), "ROBOT0_POSE")["age_s"] == Approx(6));
   CHECK(line(traffic.json(now, now), "OTHER")["age_s"] == Approx(6));
