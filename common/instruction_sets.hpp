@@ -7,6 +7,10 @@
 // kFloats: how many a register holds.
 #pragma once
 
+#ifdef ARCSTART_TOGETHER
+#error "a source for several instruction sets: list it under APART in its CMakeLists.txt"
+#endif
+
 #define ARCSTART_INLINE_BODY [[gnu::always_inline]] static inline
 
 #if defined(__x86_64__) && defined(__GNUC__)

@@ -46,4 +46,7 @@ class CalibrationApp : public App {
   std::unique_ptr<CaptureSession> desk_;        // none where no plate is configured
 };
 
+// The whole main of arcstart-calibration.
+int run(int argc, char** argv);
+
 }  // namespace arcstart::calibration

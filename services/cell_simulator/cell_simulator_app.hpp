@@ -44,4 +44,7 @@ class CellSimulatorApp : public App {
   truth_t told_{};
 };
 
+// The whole main of arcstart-cell-simulator.
+int run(int argc, char** argv);
+
 }  // namespace arcstart::cell_simulator

@@ -44,4 +44,7 @@ class ExtractionApp : public App {
   cv::Mat laser_off_grey_;
 };
 
+// The whole main of arcstart-extraction.
+int run(int argc, char** argv);
+
 }  // namespace arcstart::extraction

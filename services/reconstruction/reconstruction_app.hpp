@@ -51,4 +51,7 @@ class ReconstructionApp : public App {
   std::string last_empty_;  // why the last profile without a position or calibration was so
 };
 
+// The whole main of arcstart-reconstruction.
+int run(int argc, char** argv);
+
 }  // namespace arcstart::reconstruction

@@ -47,4 +47,7 @@ class RobotPoseApp : public App {
   std::int64_t troubles_ = 0;    // malformed, foreign and late packets at that time
 };
 
+// The whole main of arcstart-robot-pose.
+int run(int argc, char** argv);
+
 }  // namespace arcstart::robot_pose

@@ -54,4 +54,7 @@ class SeamFindingApp : public App {
   std::string store_error_, background_store_error_, last_error_;
 };
 
+// The whole main of arcstart-seam-finding.
+int run(int argc, char** argv);
+
 }  // namespace arcstart::seam_finding

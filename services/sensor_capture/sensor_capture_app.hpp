@@ -78,4 +78,7 @@ class SensorCaptureApp : public App {
   std::int64_t error_until_ = 0;  // steady; us
 };
 
+// The whole main of arcstart-sensor-capture.
+int run(int argc, char** argv);
+
 }  // namespace arcstart::sensor_capture

@@ -12,10 +12,10 @@ using namespace arcstart::extraction;
 
 namespace {
 
-constexpr int kWidth = 1600, kHeight = 1200;
+constexpr int kFullWidth = 1600, kFullHeight = 1200;
 
 cv::Mat checkers(int field, double dark, double bright) {
-  cv::Mat light(kHeight, kWidth, CV_32F);
+  cv::Mat light(kFullHeight, kFullWidth, CV_32F);
   light.forEach<float>([&](float& value, const int* at) {
     value = static_cast<float>((at[0] / field + at[1] / field) % 2 != 0 ? bright : dark);
   });
@@ -34,8 +34,8 @@ TEST_CASE("an image of more ridge points than can be told apart is refused, and 
   CHECK(stripe.why == EmptyStripe::kTooMuchLight);
   CHECK(stripe.empty == "more than 153600 ridge points, too many to tell a stripe from");
   // The next image is looked at anew.
-  cv::Mat light = darkness(kWidth, kHeight);
-  add_stripe(light, -20, 500, kWidth + 20, 700, 150, 2);
+  cv::Mat light = darkness(kFullWidth, kFullHeight);
+  add_stripe(light, -20, 500, kFullWidth + 20, 700, 150, 2);
   const Stripe next = extractor.extract(view_of(expose(light, 2)));
   CHECK(next.why == EmptyStripe::kNone);
   CHECK(next.empty.empty());
@@ -46,7 +46,8 @@ TEST_CASE("a stripe in front of a plate full of edges is found") {
   const int field = GENERATE(16, 20);
   cv::Mat light = checkers(field, 10, 70);
   const double slope = 0.1;
-  add_stripe(light, -20, 500 - 20 * slope, kWidth + 20, 500 + (kWidth + 20) * slope, 180, 2.5);
+  add_stripe(light, -20, 500 - 20 * slope, kFullWidth + 20, 500 + (kFullWidth + 20) * slope, 180,
+             2.5);
   const cv::Mat grey = expose(light, 2);
 
   // Far more than is kept of them:
@@ -58,18 +59,18 @@ TEST_CASE("a stripe in front of a plate full of edges is found") {
   Linker().link(points, {strong, 10}, chains);
   std::size_t all = 0;
   for (const Chain& chain : chains) all += chain.size();
-  REQUIRE(all > 30 * kWidth);
+  REQUIRE(all > 30 * kFullWidth);
 
   const Stripe stripe = StripeExtractor(ExtractionSettings{}).extract(view_of(grey));
-  std::vector<char> found(kWidth, 0);
+  std::vector<char> found(kFullWidth, 0);
   int chosen = 0, beside = 0;
   for (const StripeCentre& c : stripe.centres) {
     if (!c.chosen) continue;
     ++chosen;
     const bool on_stripe = std::abs(c.v - 500 - slope * c.u) < 3;
     beside += !on_stripe;
-    if (on_stripe) found[std::clamp(static_cast<int>(std::lround(c.u)), 0, kWidth - 1)] = 1;
+    if (on_stripe) found[std::clamp(static_cast<int>(std::lround(c.u)), 0, kFullWidth - 1)] = 1;
   }
-  CHECK(std::count(found.begin(), found.end(), 1) > 0.9 * kWidth);
+  CHECK(std::count(found.begin(), found.end(), 1) > 0.9 * kFullWidth);
   CHECK(beside < 0.02 * chosen);
 }

@@ -11,7 +11,7 @@ using State = TrajectoryQueue::State;
 
 namespace {
 
-constexpr std::int64_t kSecond = 1'000'000, kBegin = 1'700'000'000 * kSecond;
+constexpr std::int64_t kOneSecond = 1'000'000, kFirstTime = 1'700'000'000 * kOneSecond;
 
 RigidTransform at_x(double x) {
   RigidTransform transform = RigidTransform::Identity();
@@ -19,23 +19,23 @@ RigidTransform at_x(double x) {
   return transform;
 }
 
-TrajectoryQueue queue() { return {10 * kSecond, 100'000}; }
+TrajectoryQueue queue() { return {10 * kOneSecond, 100'000}; }
 
-// A tool at x = seconds after kBegin, with a position every 20 ms.
+// A tool at x = seconds after kFirstTime, with a position every 20 ms.
 void fill(TrajectoryQueue& positions, double from, double to) {
   for (auto n = std::llround(from * 50); n <= std::llround(to * 50); ++n)
-    positions.insert(kBegin + n * 20'000, at_x(static_cast<double>(n) / 50));
+    positions.insert(kFirstTime + n * 20'000, at_x(static_cast<double>(n) / 50));
 }
 
 double x_at(const TrajectoryQueue& positions, double seconds) {
-  const auto lookup = positions.at(kBegin + std::llround(seconds * 1e6));
+  const auto lookup = positions.at(kFirstTime + std::llround(seconds * 1e6));
   REQUIRE(lookup.state == State::found);
   return lookup.T_base_tool.translation().x();
 }
 
 }  // namespace
 
-TEST_CASE("an empty queue waits") { CHECK(queue().at(kBegin).state == State::waiting); }
+TEST_CASE("an empty queue waits") { CHECK(queue().at(kFirstTime).state == State::waiting); }
 
 TEST_CASE("between two positions it is interpolated by time") {
   auto positions = queue();
@@ -52,9 +52,9 @@ TEST_CASE("orientation turns evenly with time") {
     transform.linear() = Eigen::AngleAxisd(angle, axis).toRotationMatrix();
     return transform;
   };
-  positions.insert(kBegin, turned(3.0));
-  positions.insert(kBegin + 80'000, turned(3.4));
-  const auto lookup = positions.at(kBegin + 20'000);
+  positions.insert(kFirstTime, turned(3.0));
+  positions.insert(kFirstTime + 80'000, turned(3.4));
+  const auto lookup = positions.at(kFirstTime + 20'000);
   REQUIRE(lookup.state == State::found);
   CHECK(lookup.T_base_tool.isApprox(turned(3.1), 1e-12));
 }
@@ -62,9 +62,9 @@ TEST_CASE("orientation turns evenly with time") {
 TEST_CASE("it never extrapolates") {
   auto positions = queue();
   fill(positions, 0, 1);
-  CHECK(positions.at(kBegin + kSecond + 1).state == State::waiting);
-  CHECK(positions.at(kBegin + 5 * kSecond).state == State::waiting);
-  const auto before = positions.at(kBegin - 1);
+  CHECK(positions.at(kFirstTime + kOneSecond + 1).state == State::waiting);
+  CHECK(positions.at(kFirstTime + 5 * kOneSecond).state == State::waiting);
+  const auto before = positions.at(kFirstTime - 1);
   CHECK(before.state == State::none);
   CHECK(before.reason == "no position before it");
 }
@@ -74,23 +74,24 @@ TEST_CASE("at a position's own instant it is that position, once a later one has
   fill(positions, 0, 1);
   CHECK(x_at(positions, 0) == 0);
   CHECK(x_at(positions, 0.5) == Approx(0.5).epsilon(1e-14));
-  CHECK(positions.at(kBegin + kSecond).state == State::waiting);  // the newest: a later one decides
+  CHECK(positions.at(kFirstTime + kOneSecond).state ==
+        State::waiting);  // the newest: a later one decides
   fill(positions, 1.02, 1.02);
   CHECK(x_at(positions, 1) == Approx(1).epsilon(1e-14));
 }
 
 TEST_CASE("positions up to 100 ms apart are interpolated, farther ones not") {
   auto positions = queue();
-  positions.insert(kBegin, at_x(0));
-  positions.insert(kBegin + 100'000, at_x(10));
-  positions.insert(kBegin + 200'001, at_x(20));
+  positions.insert(kFirstTime, at_x(0));
+  positions.insert(kFirstTime + 100'000, at_x(10));
+  positions.insert(kFirstTime + 200'001, at_x(20));
   CHECK(x_at(positions, 0.075) == Approx(7.5));
-  const auto lookup = positions.at(kBegin + 150'000);
+  const auto lookup = positions.at(kFirstTime + 150'000);
   CHECK(lookup.state == State::none);
   CHECK(lookup.reason == "positions 100 ms apart");
-  CHECK(positions.at(kBegin + 200'000).state == State::none);
-  positions.insert(kBegin + 700'001, at_x(20));
-  CHECK(positions.at(kBegin + 200'001).reason == "positions 500 ms apart");
+  CHECK(positions.at(kFirstTime + 200'000).state == State::none);
+  positions.insert(kFirstTime + 700'001, at_x(20));
+  CHECK(positions.at(kFirstTime + 200'001).reason == "positions 500 ms apart");
 }
 
 TEST_CASE(
@@ -99,7 +100,7 @@ TEST_CASE(
   fill(positions, 0, 60);
   CHECK(x_at(positions, 50) == Approx(50));
   CHECK(x_at(positions, 50.003) == Approx(50.003));
-  const auto old = positions.at(kBegin + 49 * kSecond);
+  const auto old = positions.at(kFirstTime + 49 * kOneSecond);
   CHECK(old.state == State::none);
   CHECK(old.reason == "its position is no longer kept (10 s)");
 }
@@ -107,9 +108,9 @@ TEST_CASE(
 TEST_CASE("stamps that do not rise are dropped and counted") {
   auto positions = queue();
   fill(positions, 0, 1);
-  positions.insert(kBegin + kSecond, at_x(-1));
-  positions.insert(kBegin + kSecond / 2, at_x(-1));
-  positions.insert(kBegin - 8 * kSecond, at_x(-1));
+  positions.insert(kFirstTime + kOneSecond, at_x(-1));
+  positions.insert(kFirstTime + kOneSecond / 2, at_x(-1));
+  positions.insert(kFirstTime - 8 * kOneSecond, at_x(-1));
   fill(positions, 1.02, 1.1);
   CHECK(positions.dropped_going_back() == 3);
   CHECK(positions.dropped_jumps() == 0);
@@ -123,7 +124,7 @@ TEST_CASE("shuffled positions give no position that they do not hold") {
   auto positions = queue();
   for (int n = 0; n < 100; ++n) {
     const int other = n ^ 1;
-    positions.insert(kBegin + other * 20'000, at_x(other / 50.0));
+    positions.insert(kFirstTime + other * 20'000, at_x(other / 50.0));
   }
   CHECK(positions.dropped_going_back() == 50);
   for (const double seconds : {0.03, 0.5, 1.0, 1.5})
@@ -131,12 +132,13 @@ TEST_CASE("shuffled positions give no position that they do not hold") {
 }
 
 TEST_CASE("a single jump of more than 10 s is dropped and counted, either way") {
-  for (const std::int64_t jump : {11 * kSecond, -11 * kSecond, 1000000 * kSecond, -kBegin + 1}) {
+  for (const std::int64_t jump :
+       {11 * kOneSecond, -11 * kOneSecond, 1000000 * kOneSecond, -kFirstTime + 1}) {
     auto positions = queue();
     fill(positions, 0, 1);
-    positions.insert(kBegin + kSecond + jump, at_x(-1));
-    CHECK(positions.newest() == kBegin + kSecond);
-    CHECK(positions.at(kBegin + kSecond + 1).state == State::waiting);
+    positions.insert(kFirstTime + kOneSecond + jump, at_x(-1));
+    CHECK(positions.newest() == kFirstTime + kOneSecond);
+    CHECK(positions.at(kFirstTime + kOneSecond + 1).state == State::waiting);
     fill(positions, 1.02, 2);
     CHECK(positions.dropped_jumps() == 1);
     CHECK(positions.dropped_going_back() == 0);
@@ -148,9 +150,9 @@ TEST_CASE("a single jump of more than 10 s is dropped and counted, either way") 
 TEST_CASE("two jumps that do not go on from each other are two single ones") {
   auto positions = queue();
   fill(positions, 0, 1);
-  positions.insert(kBegin + 500 * kSecond, at_x(-1));
-  positions.insert(kBegin + 100 * kSecond, at_x(-1));
-  positions.insert(kBegin + 100 * kSecond, at_x(-1));
+  positions.insert(kFirstTime + 500 * kOneSecond, at_x(-1));
+  positions.insert(kFirstTime + 100 * kOneSecond, at_x(-1));
+  positions.insert(kFirstTime + 100 * kOneSecond, at_x(-1));
   fill(positions, 1.02, 2);
   CHECK(positions.dropped_jumps() == 3);
   CHECK(x_at(positions, 1.5) == Approx(1.5));
@@ -162,8 +164,8 @@ TEST_CASE("a lasting jump ahead begins a new stream, and the hole is told") {
   fill(positions, 31, 32);
   CHECK(positions.dropped_jumps() == 0);
   CHECK(x_at(positions, 31.5) == Approx(31.5));
-  CHECK(positions.at(kBegin + 20 * kSecond).reason == "positions 30000 ms apart");
-  CHECK(positions.at(kBegin + kSecond / 2).state == State::none);
+  CHECK(positions.at(kFirstTime + 20 * kOneSecond).reason == "positions 30000 ms apart");
+  CHECK(positions.at(kFirstTime + kOneSecond / 2).state == State::none);
 }
 
 TEST_CASE("a lasting jump back begins a new stream") {
@@ -173,7 +175,7 @@ TEST_CASE("a lasting jump back begins a new stream") {
   CHECK(positions.dropped_jumps() == 0);
   CHECK(positions.dropped_going_back() == 0);
   CHECK(x_at(positions, 0.5) == Approx(0.5));
-  CHECK(positions.at(kBegin - 1).reason == "no position before it");
-  CHECK(positions.at(kBegin + 110 * kSecond).state == State::waiting);
-  CHECK(positions.newest() == kBegin + kSecond);
+  CHECK(positions.at(kFirstTime - 1).reason == "no position before it");
+  CHECK(positions.at(kFirstTime + 110 * kOneSecond).state == State::waiting);
+  CHECK(positions.newest() == kFirstTime + kOneSecond);
 }

@@ -5,10 +5,10 @@
 #include <ceres/manifold.h>
 #include <ceres/solver.h>
 
-#include <Eigen/Dense>
 #include <cmath>
 
 #include "services/calibration/adjustment/adjustment_residuals.hpp"
+#include "services/calibration/linear_algebra/dense_solvers.hpp"
 
 namespace arcstart::calibration {
 namespace {
@@ -148,8 +148,7 @@ Redundancy AdjustmentProblem::redundancy() {
   for (Eigen::Index i = 0; i < columns; ++i)
     if (scale(i) == 0) scaled(i, i) = 1;
   const Eigen::MatrixXd covariance =
-      scale.asDiagonal() * scaled.ldlt().solve(Eigen::MatrixXd::Identity(columns, columns)) *
-      scale.asDiagonal();
+      scale.asDiagonal() * symmetric_inverse(scaled) * scale.asDiagonal();
 
   Redundancy result;
   const int lasers = static_cast<int>(2 * target_.size()),

@@ -1,10 +1,10 @@
 #include "services/calibration/adjustment/target_flatness.hpp"
 
-#include <Eigen/Dense>
 #include <algorithm>
 #include <array>
 #include <cmath>
 
+#include "services/calibration/linear_algebra/dense_solvers.hpp"
 #include "services/calibration/target/projection.hpp"
 
 namespace arcstart::calibration {
@@ -40,7 +40,7 @@ TargetFlatness target_flatness(const Target& plate, const std::vector<View>& vie
     plane.row(k) << 1, points[static_cast<std::size_t>(k)].x(),
         points[static_cast<std::size_t>(k)].y();
   Eigen::VectorXd height = along.cwiseQuotient(square.cwiseMax(1e-12));
-  height -= plane * plane.colPivHouseholderQr().solve(height);
+  height -= plane * least_squares(plane, height);
   TargetFlatness result;
   result.height_mm.assign(height.data(), height.data() + height.size());
   result.bend_mm = height.maxCoeff() - height.minCoeff();

@@ -1,6 +1,6 @@
-#include <Eigen/Dense>
 #include <cmath>
 
+#include "services/calibration/linear_algebra/dense_solvers.hpp"
 #include "services/calibration/stages/laser_plane_stage.hpp"
 #include "services/calibration/target/projection.hpp"
 
@@ -19,7 +19,7 @@ std::optional<double> place_on_line(const std::vector<double>& s, const std::vec
     left.row(i) << si, 1, -p * si;
     right(i) = p;
   }
-  const Eigen::Vector3d map = left.colPivHouseholderQr().solve(right);
+  const Eigen::Vector3d map = least_squares(left, right);
   const double below = map(2) * crossing + 1;
   if (!(std::abs(below) > 1e-9)) return std::nullopt;
   return (map(0) * crossing + map(1)) / below;
@@ -45,8 +45,7 @@ std::vector<double> crossing_differences(const SensorModel& camera, const Target
     const Eigen::RowVector2d mean = points.colwise().mean();
     const Eigen::MatrixXd centred = points.rowwise() - mean;
     const Eigen::Matrix2d scatter = centred.transpose() * centred;
-    const Eigen::Vector2d normal =
-        Eigen::SelfAdjointEigenSolver<Eigen::Matrix2d>(scatter).eigenvectors().col(0);
+    const Eigen::Vector2d normal = direction_of_least_spread(scatter);
     return Eigen::Vector3d(normal.x(), normal.y(), -normal.dot(mean.transpose()));
   };
   const Eigen::Vector3d stripe = line_of(flat), stripe_on = line_of(on_plate);

@@ -1,8 +1,10 @@
 #include "services/calibration/stages/laser_plane_stage.hpp"
 
-#include <Eigen/Dense>
+#include <Eigen/Eigenvalues>
 #include <algorithm>
 #include <cmath>
+
+#include "services/calibration/linear_algebra/dense_solvers.hpp"
 
 namespace arcstart::calibration {
 namespace {
@@ -28,7 +30,7 @@ ImageLine fit_line(const std::vector<Eigen::Vector2d>& points) {
   Eigen::Matrix2d scatter = Eigen::Matrix2d::Zero();
   for (const auto& p : points) scatter += (p - mean) * (p - mean).transpose();
   ImageLine line;
-  line.normal = Eigen::SelfAdjointEigenSolver<Eigen::Matrix2d>(scatter).eigenvectors().col(0);
+  line.normal = direction_of_least_spread(scatter);
   line.offset = -line.normal.dot(mean);
   return line;
 }

@@ -13,13 +13,13 @@ namespace {
 
 using Points = std::vector<Eigen::Vector3d>;
 
-constexpr int kPlaces = 150, kTries = 100;  // samples, of each place so many
-constexpr std::size_t kFewest = 60;
+constexpr int kPlaces = 150, kBallTries = 100;  // samples, of each place so many
+constexpr std::size_t kFewestOnBall = 60;
 constexpr double kFlat = 0.6;       // mm
 constexpr double kRadiusOff = 0.2;  // of a sample's radius, as a share
-constexpr int kRounds = 30;
+constexpr int kBallRounds = 30;
 constexpr double kLooseShare = 0.35;  // of the tolerance, RMS: points strewn evenly have 0.58
-constexpr double kHuber = 2;          // times the points' deviation
+constexpr double kBallHuber = 2;      // times the points' deviation
 
 struct Sphere {
   Eigen::Vector3d centre;
@@ -66,7 +66,7 @@ Points without_large_faces(const Points& points, double radius) {
 
 // Gauss-Newton; the radius is held or free.
 Sphere fit(const Points& points, Sphere sphere, bool radius_free) {
-  for (int round = 0; round < kRounds; ++round) {
+  for (int round = 0; round < kBallRounds; ++round) {
     std::vector<double> distances;
     for (const Eigen::Vector3d& point : points)
       distances.push_back(std::abs(sphere.distance(point)));
@@ -80,7 +80,8 @@ Sphere fit(const Points& points, Sphere sphere, bool radius_free) {
       const Eigen::Vector3d outward = (point - sphere.centre).normalized();
       const Eigen::Vector4d derivative(-outward.x(), -outward.y(), -outward.z(),
                                        radius_free ? -1 : 0);
-      const double weight = std::min(1.0, kHuber * deviation / std::max(1e-12, std::abs(distance)));
+      const double weight =
+          std::min(1.0, kBallHuber * deviation / std::max(1e-12, std::abs(distance)));
       information += weight * derivative * derivative.transpose();
       gradient += weight * distance * derivative;
     }
@@ -97,7 +98,7 @@ Sphere fit(const Points& points, Sphere sphere, bool radius_free) {
 
 std::optional<FittedBall> find_ball(const Points& scanned, double radius_mm, double tolerance) {
   const Points points = without_large_faces(scanned, radius_mm);
-  if (points.size() < kFewest) return std::nullopt;
+  if (points.size() < kFewestOnBall) return std::nullopt;
   std::mt19937_64 random(1);
   const auto any_of = [&](const Points& from) -> const Eigen::Vector3d& {
     return from[random() % from.size()];
@@ -110,7 +111,7 @@ std::optional<FittedBall> find_ball(const Points& scanned, double radius_mm, dou
     Points around;
     for (const Eigen::Vector3d& point : points)
       if ((point - first).norm() < 2 * radius_mm) around.push_back(point);
-    for (int attempt = 0; attempt < kTries; ++attempt) {
+    for (int attempt = 0; attempt < kBallTries; ++attempt) {
       const auto sphere = through({first, any_of(around), any_of(around), any_of(around)});
       if (!sphere || std::abs(sphere->radius / radius_mm - 1) > kRadiusOff) continue;
       const auto count = std::count_if(around.begin(), around.end(), [&](const auto& point) {
@@ -119,15 +120,15 @@ std::optional<FittedBall> find_ball(const Points& scanned, double radius_mm, dou
       if (count > most) most = count, best = *sphere;
     }
   }
-  if (most < static_cast<std::ptrdiff_t>(kFewest)) return std::nullopt;
+  if (most < static_cast<std::ptrdiff_t>(kFewestOnBall)) return std::nullopt;
   for (int round = 0; round < 3; ++round) {
     const Points near = on(points, best, tolerance);
-    if (near.size() < kFewest) return std::nullopt;
+    if (near.size() < kFewestOnBall) return std::nullopt;
     best = fit(near, best, true);
   }
   FittedBall ball;
   ball.points = on(points, best, tolerance);
-  if (ball.points.size() < kFewest) return std::nullopt;
+  if (ball.points.size() < kFewestOnBall) return std::nullopt;
   ball.radius_mm = best.radius;
   const Sphere held = fit(ball.points, {best.centre, radius_mm}, false);
   ball.centre = held.centre;

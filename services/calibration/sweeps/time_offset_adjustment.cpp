@@ -1,11 +1,11 @@
 #include "services/calibration/sweeps/time_offset_adjustment.hpp"
 
-#include <Eigen/Dense>
 #include <algorithm>
 #include <cmath>
 
 #include "common/time.hpp"
 #include "services/calibration/adjustment/adjustment.hpp"
+#include "services/calibration/linear_algebra/dense_solvers.hpp"
 
 namespace arcstart::calibration {
 namespace {
@@ -32,9 +32,7 @@ Eigen::Vector3d direction(const Eigen::Vector3d& velocity) {
 Eigen::MatrixXd inverse_of(const Eigen::MatrixXd& information) {
   const Eigen::VectorXd scale = information.diagonal().cwiseMax(1e-30).cwiseSqrt().cwiseInverse();
   const Eigen::MatrixXd scaled = scale.asDiagonal() * information * scale.asDiagonal();
-  const Eigen::Index n = information.rows();
-  return scale.asDiagonal() * scaled.ldlt().solve(Eigen::MatrixXd::Identity(n, n)) *
-         scale.asDiagonal();
+  return scale.asDiagonal() * symmetric_inverse(scaled) * scale.asDiagonal();
 }
 
 // Two tilts about the face's centre and a shift along its normal.

@@ -9,7 +9,7 @@
 namespace arcstart::cell_simulator {
 namespace {
 
-constexpr std::uint64_t purpose = 3;  // of the random stream
+constexpr std::uint64_t kClutterStream = 3;  // of the random stream
 const Surface painted{0.5, 0.1, 1, 0.03, 0.02}, worn_steel{0.4, 0.1, 1, 0.15, 0.01};
 
 // On the table, near the work and in the sensor's view, touching nothing.
@@ -39,7 +39,7 @@ std::vector<SceneObject> make_clutter(const SceneSettings& settings, const Work&
                                       std::uint64_t seed) {
   // All is drawn whether it is used or not, so that one setting does not change what another puts
   // there.
-  RandomStream random(seed, purpose);
+  RandomStream random(seed, kClutterStream);
   const double box_along = random.uniform(-20, 20), box_turn = random.uniform(-8, 8),
                box_gap = random.uniform(14, 24);
   const double on_base_along = random.uniform(0.05, 0.3), on_base_across = random.uniform(0.4, 0.6);

@@ -9,14 +9,14 @@
 namespace arcstart::cell_simulator {
 namespace {
 
-constexpr std::uint64_t purpose = 1;  // of the random stream
-constexpr double rough_share = 0.12;  // of the unevenness
+constexpr std::uint64_t kTableStream = 1;  // of the random stream
+constexpr double rough_share = 0.12;       // of the unevenness
 constexpr int wave_count = 10;
 
 }  // namespace
 
 SceneObject make_table(const SceneSettings& settings, std::uint64_t seed) {
-  RandomStream random(seed, purpose);
+  RandomStream random(seed, kTableStream);
   struct Wave {
     Eigen::Vector2d number;
     double phase, height;

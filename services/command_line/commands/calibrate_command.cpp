@@ -19,6 +19,7 @@
 #include "services/calibration/report/calibration_report.hpp"
 #include "services/calibration/solve/calibration_result.hpp"
 #include "services/command_line/commands/calibrate_live.hpp"
+#include "services/command_line/commands/say.hpp"
 #include "services/command_line/output/terminal.hpp"
 #include "services/extraction/files/image_file.hpp"
 
@@ -27,7 +28,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-struct Options {
+struct CalibrateCommandOptions {
   std::string folder, output, cell, channel;
   bool without_laser = false, live = false, go_on = false;
   int poses = 20;
@@ -35,9 +36,8 @@ struct Options {
   calibration::CalibrationNames names;
 };
 
-void say(const std::string& text) { std::cerr << "calibrate: " << text << "\n"; }
-
-cv::Mat read_image(const Options& options, const std::string& path, const cv::Size& size) {
+cv::Mat read_image(const CalibrateCommandOptions& options, const std::string& path,
+                   const cv::Size& size) {
   const cv::Mat grey = extraction::read_grey_image(path, options.channel);
   if (size.area() > 0 && grey.size() != size)
     throw calibration::CalibrationSetError(
@@ -51,7 +51,7 @@ struct Seen {
   cv::Size size;
 };
 
-Seen look_at_all(const Options& options, const calibration::CalibrationSet& set,
+Seen look_at_all(const CalibrateCommandOptions& options, const calibration::CalibrationSet& set,
                  ProgressLine& progress) {
   Seen seen;
   for (std::size_t i = 0; i < set.poses.size(); ++i) {
@@ -88,17 +88,17 @@ void write_file(const fs::path& path, const std::string& text) {
 
 void tell(const calibration::CalibrationRun& run, const std::vector<std::string>& missed) {
   for (const calibration::LeftOutView& view : run.left_out)
-    say(fmt::format("pose {} left out: {}", view.index, view.why));
-  for (const std::string& warning : run.warnings) say("warning: " + warning);
+    say("calibrate", fmt::format("pose {} left out: {}", view.index, view.why));
+  for (const std::string& warning : run.warnings) say("calibrate", "warning: " + warning);
   if (!run.refused.empty()) {
-    say("refused: " + run.refused);
+    say("calibrate", "refused: " + run.refused);
     return;
   }
-  for (const std::string& line : missed) say("limit missed: " + line);
-  for (const std::string& line : run.advice) say("to improve it: " + line);
+  for (const std::string& line : missed) say("calibrate", "limit missed: " + line);
+  for (const std::string& line : run.advice) say("calibrate", "to improve it: " + line);
 }
 
-int run_command(const Options& options) {
+int run_command(const CalibrateCommandOptions& options) {
   calibration::CalibrationLimits limits;
   if (!options.cell.empty())
     limits = Configuration::from_file(options.cell)
@@ -144,16 +144,17 @@ int run_command(const Options& options) {
   std::cout << json.dump(2) << "\n";
   if (!run.refused.empty()) return 1;
   if (has_set)
-    say(fmt::format(
-        "{}: laser points of poses it never saw lie within {:.3f} mm RMS; report beside "
-        "it, .html and .json",
-        output.string(), run.left_one_out.laser_rms_mm));
+    say("calibrate",
+        fmt::format(
+            "{}: laser points of poses it never saw lie within {:.3f} mm RMS; report beside "
+            "it, .html and .json",
+            output.string(), run.left_one_out.laser_rms_mm));
   return missed.empty() ? 0 : 1;
 }
 
-int run_or_complain(const Options& options) try {
+int run_or_complain(const CalibrateCommandOptions& options) try {
   if (options.live != options.folder.empty()) {
-    say("give either a folder or --live");
+    say("calibrate", "give either a folder or --live");
     return 2;
   }
   if (options.live)
@@ -164,14 +165,14 @@ int run_or_complain(const Options& options) try {
                            options.seed});
   return run_command(options);
 } catch (const calibration::CalibrationFileError& error) {
-  say(std::string("refused: the result is no sensor that can be: ") + error.what());
+  say("calibrate", std::string("refused: the result is no sensor that can be: ") + error.what());
   return 1;
 }
 
 }  // namespace
 
 void add_calibrate_command(CLI::App& parent, int& exit_code) {
-  auto options = std::make_shared<Options>();
+  auto options = std::make_shared<CalibrateCommandOptions>();
   options->names.made = utime_now();
   Command command(parent, "calibrate",
                   "Camera, laser plane and hand-eye from images of a plate and the robot's poses");

@@ -10,20 +10,19 @@
 #include "services/calibration/calibration_settings.hpp"
 #include "services/calibration/files/calibration_file.hpp"
 #include "services/calibration/sweeps/drift_check.hpp"
+#include "services/command_line/commands/say.hpp"
 #include "services/command_line/recordings/recorded_sweeps.hpp"
 #include "services/command_line/recordings/recording.hpp"
 
 namespace arcstart::command_line {
 namespace {
 
-struct Options {
+struct CheckOptions {
   SweepOptions sweeps;
   std::string cell;
   double sphere_radius_mm = 0, limit_mm = 0;
   bool json = false;
 };
-
-void say(const std::string& text) { std::cerr << "check: " << text << "\n"; }
 
 nlohmann::ordered_json to_json(const calibration::DriftCheck& found, const std::string& alarm,
                                const std::string& calibration_id, double limit_mm, bool ball) {
@@ -57,7 +56,7 @@ nlohmann::ordered_json to_json(const calibration::DriftCheck& found, const std::
   return json;
 }
 
-int run(const Options& options) {
+int run(const CheckOptions& options) {
   const double limit_mm = options.limit_mm > 0 ? options.limit_mm
                           : options.cell.empty()
                               ? calibration::CalibrationLimits{}.check_mm
@@ -72,16 +71,18 @@ int run(const Options& options) {
   const std::string alarm = found.refused.empty() ? calibration::drift(found, limit_mm) : "";
   if (options.json)
     std::cout << to_json(found, alarm, calibration.id, limit_mm, ball).dump(2) << "\n";
-  for (const std::string& warning : found.warnings) say("warning: " + warning);
+  for (const std::string& warning : found.warnings) say("check", "warning: " + warning);
   if (!found.refused.empty()) {
-    say("refused: " + found.refused);
+    say("check", "refused: " + found.refused);
     return 1;
   }
   if (!alarm.empty()) {
-    say(fmt::format("calibration {} HAS DRIFTED: {}: calibrate anew", calibration.id, alarm));
+    say("check",
+        fmt::format("calibration {} HAS DRIFTED: {}: calibrate anew", calibration.id, alarm));
     return 1;
   }
-  say(fmt::format("calibration {} holds: {} scans agree within {:.3f} mm, the limit is {} mm{}",
+  say("check",
+      fmt::format("calibration {} holds: {} scans agree within {:.3f} mm, the limit is {} mm{}",
                   calibration.id, found.views.size(), found.error_mm, limit_mm,
                   found.predicted_mm < 0 ? ""
                                          : fmt::format(", the calibration itself expects {:.3f} mm",
@@ -92,7 +93,7 @@ int run(const Options& options) {
 }  // namespace
 
 void add_check_command(CLI::App& parent, int& exit_code) {
-  auto options = std::make_shared<Options>();
+  auto options = std::make_shared<CheckOptions>();
   Command command(parent, "check",
                   "Whether a calibration still holds, from scans of one thing from two sides");
   options->sweeps.add_to(command);

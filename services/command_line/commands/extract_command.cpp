@@ -28,7 +28,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-struct Options {
+struct ExtractOptions {
   std::vector<std::string> images;
   std::string csv, off, channel, picture, cell;
   bool all = false, as_found = false;
@@ -59,7 +59,7 @@ std::vector<std::string> image_files(const std::vector<std::string>& paths) {
   return files;
 }
 
-cv::Mat read(const Options& options, const std::string& path) {
+cv::Mat read(const ExtractOptions& options, const std::string& path) {
   cv::Mat grey = extraction::read_grey_image(path, options.channel);
   if (options.off.empty()) return grey;
   const cv::Mat off = extraction::read_grey_image(options.off, options.channel);
@@ -69,7 +69,7 @@ cv::Mat read(const Options& options, const std::string& path) {
   return grey - off;  // not below 0
 }
 
-void write_centres(std::ostream& out, const Options& options, const std::string& image,
+void write_centres(std::ostream& out, const ExtractOptions& options, const std::string& image,
                    const extraction::Stripe& stripe) {
   for (const extraction::StripeCentre& c : stripe.centres) {
     if (!c.chosen && !options.all) continue;
@@ -81,7 +81,7 @@ void write_centres(std::ostream& out, const Options& options, const std::string&
 }
 
 // OUT.png for one image, OUT_NAME.png for the image NAME of several.
-std::string picture_path(const Options& options, const std::string& image, bool several) {
+std::string picture_path(const ExtractOptions& options, const std::string& image, bool several) {
   if (!several) return options.picture;
   fs::path path(options.picture);
   const std::string name =
@@ -89,7 +89,7 @@ std::string picture_path(const Options& options, const std::string& image, bool 
   return path.replace_filename(name).string();
 }
 
-void write_picture(const Options& options, const std::string& path, const cv::Mat& grey,
+void write_picture(const ExtractOptions& options, const std::string& path, const cv::Mat& grey,
                    const extraction::Stripe& stripe) {
   std::vector<extraction::PictureCentre> centres;
   for (const extraction::StripeCentre& c : stripe.centres)
@@ -123,7 +123,7 @@ void report(const std::string& path, const extraction::Stripe& stripe) {
         path, chosen, segments, seconds, stripe.sigma, stripe.noise, 100 * stripe.saturated_share);
 }
 
-int run(const Options& options) {
+int run(const ExtractOptions& options) {
   const auto complain = [](const std::exception& error) {
     std::cerr << "extract: " << error.what() << "\n";
     return 2;
@@ -187,7 +187,7 @@ int run(const Options& options) {
 }  // namespace
 
 void add_extract_command(CLI::App& parent, int& exit_code) {
-  auto options = std::make_shared<Options>();
+  auto options = std::make_shared<ExtractOptions>();
   Command command(
       parent, "extract",
       "Find the laser stripe's centres in images: CSV of u,v,strength,width,segment,sd");

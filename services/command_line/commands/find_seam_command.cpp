@@ -13,6 +13,7 @@
 #include "common/options.hpp"
 #include "services/command_line/clouds/cloud_picture.hpp"
 #include "services/command_line/clouds/point_cloud_file.hpp"
+#include "services/command_line/commands/say.hpp"
 #include "services/command_line/output/seam_json.hpp"
 #include "services/seam_finding/answer/wording.hpp"
 #include "services/seam_finding/background/plane_background.hpp"
@@ -26,7 +27,7 @@ namespace {
 constexpr double kViewHeight = 1000;  // of a viewpoint that is not given, above the plane; mm
 constexpr std::uint64_t kSeed = 1;
 
-struct Options {
+struct FindSeamOptions {
   std::string cloud, background, picture, stations, cell, joint, units = "mm";
   std::vector<double> viewpoint, search_direction;
   bool remove_plane = false, json = false;
@@ -39,33 +40,33 @@ std::string in_words(const Eigen::Vector3d& v, int decimals) {
                      decimals);
 }
 
-void say(const std::string& text) { std::cerr << "find-seam: " << text << "\n"; }
-
-PointCloud read_in_mm(const std::string& path, const Options& options) {
+PointCloud read_in_mm(const std::string& path, const FindSeamOptions& options) {
   PointCloud cloud = read_point_cloud(path);
   for (Eigen::Vector3d& point : cloud.points) point *= options.mm_per_unit();
   if (cloud.viewpoint) *cloud.viewpoint *= options.mm_per_unit();
   if (cloud.skipped > 0)
-    say(fmt::format("{}: {} of {} points are not finite: left out", path, cloud.skipped,
-                    cloud.points.size() + cloud.skipped));
+    say("find-seam", fmt::format("{}: {} of {} points are not finite: left out", path,
+                                 cloud.skipped, cloud.points.size() + cloud.skipped));
   return cloud;
 }
 
 // A thousand times too large or too small is the likeliest mistake.
-void check_extent(const seam_finding::ScanCloud& cloud, const Options& options) {
+void check_extent(const seam_finding::ScanCloud& cloud, const FindSeamOptions& options) {
   Eigen::Vector3d low = cloud.points.front(), high = low;
   for (const auto& point : cloud.points) low = low.cwiseMin(point), high = high.cwiseMax(point);
   const double extent = (high - low).norm();
   if (extent < 10 && options.units == "mm")
-    say(fmt::format("the cloud measures {:.3g} mm in all: is it in metres? Then give --units m",
+    say("find-seam",
+        fmt::format("the cloud measures {:.3g} mm in all: is it in metres? Then give --units m",
                     extent));
   if (extent > 1e5 && options.units == "m")
-    say(fmt::format("the cloud measures {:.3g} m in all: is it in mm? Then leave --units m away",
+    say("find-seam",
+        fmt::format("the cloud measures {:.3g} m in all: is it in mm? Then leave --units m away",
                     extent / 1000));
 }
 
-void set_viewpoint(seam_finding::ScanCloud& cloud, const PointCloud& file, const Options& options,
-                   const std::optional<Plane>& plane) {
+void set_viewpoint(seam_finding::ScanCloud& cloud, const PointCloud& file,
+                   const FindSeamOptions& options, const std::optional<Plane>& plane) {
   if (!options.viewpoint.empty()) {
     cloud.viewpoint =
         Eigen::Map<const Eigen::Vector3d>(options.viewpoint.data()) * options.mm_per_unit();
@@ -73,21 +74,23 @@ void set_viewpoint(seam_finding::ScanCloud& cloud, const PointCloud& file, const
   } else if (file.viewpoint) {
     cloud.viewpoint = *file.viewpoint;
     cloud.viewpoint_known = true;
-    say(fmt::format("seen from the file's VIEWPOINT {} mm", in_words(cloud.viewpoint, 1)));
+    say("find-seam",
+        fmt::format("seen from the file's VIEWPOINT {} mm", in_words(cloud.viewpoint, 1)));
   } else if (plane) {
     Eigen::Vector3d middle = Eigen::Vector3d::Zero();
     for (const auto& point : cloud.points) middle += point / static_cast<double>(cloud.size());
     cloud.viewpoint = middle + (kViewHeight - plane->signed_distance(middle)) * plane->normal;
-    say(
+    say("find-seam",
         fmt::format("no viewpoint given: taken as seen from {} mm, 1 m above its dominant plane, "
                     "on the side with more points",
                     in_words(cloud.viewpoint, 0)));
   }
 }
 
-void set_search_direction(seam_finding::ScanCloud& cloud, const Options& options) {
+void set_search_direction(seam_finding::ScanCloud& cloud, const FindSeamOptions& options) {
   if (options.search_direction.empty()) {
-    say("no search direction given: taken as running along the longest seam's increasing x, then "
+    say("find-seam",
+        "no search direction given: taken as running along the longest seam's increasing x, then "
         "y, then z");
     return;
   }
@@ -96,7 +99,7 @@ void set_search_direction(seam_finding::ScanCloud& cloud, const Options& options
 }
 
 void draw(const seam_finding::ScanCloud& cloud, const seam_finding::SeamResult& result,
-          const std::optional<Plane>& plane, const Options& options) {
+          const std::optional<Plane>& plane, const FindSeamOptions& options) {
   enum Part : char { kOther, kBackground, kFirst, kSecond };
   std::vector<Part> parts(cloud.points.size(), kOther);
   for (const int i : result.background) parts[i] = kBackground;
@@ -120,7 +123,7 @@ void draw(const seam_finding::ScanCloud& cloud, const seam_finding::SeamResult& 
                                 in_words(result.start, 1));
   }
   draw_cloud(picture, options.picture);
-  say("picture: " + options.picture);
+  say("find-seam", "picture: " + options.picture);
 }
 
 // What was measured along the seam, a line a place. Throws PointCloudFileError where it cannot be
@@ -136,29 +139,30 @@ void write_stations(const seam_finding::SeamResult& result, const std::string& p
   file << text;
   file.close();
   if (!file) throw PointCloudFileError(path + ": cannot be written: " + std::strerror(errno));
-  say("stations: " + path);
+  say("find-seam", "stations: " + path);
 }
 
 void tell(const seam_finding::SeamResult& result) {
   switch (result.verdict) {
     case seam_finding::SeamResult::Verdict::kFound:
-      say(fmt::format("found {}, start {} mm, end {} mm, direction {}; {}", result.joint_type,
+      say("find-seam",
+          fmt::format("found {}, start {} mm, end {} mm, direction {}; {}", result.joint_type,
                       in_words(result.start, 2), in_words(result.end, 2),
                       in_words(result.direction, 4), in_words(result.remarks)));
       break;
     case seam_finding::SeamResult::Verdict::kAmbiguous:
-      say("ambiguous: " + in_words(result.reason));
+      say("find-seam", "ambiguous: " + in_words(result.reason));
       break;
     case seam_finding::SeamResult::Verdict::kRefused:
-      say("refused: " + in_words(result.reason));
+      say("find-seam", "refused: " + in_words(result.reason));
       break;
   }
   for (const auto& other : result.alternatives)
-    say(fmt::format("also {} mm to {} mm, score {:.1f}: {}", in_words(other.start, 1),
-                    in_words(other.end, 1), other.score, in_words(other.reason)));
+    say("find-seam", fmt::format("also {} mm to {} mm, score {:.1f}: {}", in_words(other.start, 1),
+                                 in_words(other.end, 1), other.score, in_words(other.reason)));
 }
 
-int run(const Options& options) {
+int run(const FindSeamOptions& options) {
   auto settings = options.cell.empty()
                       ? seam_finding::SeamFindingSettings{}
                       : Configuration::from_file(options.cell)
@@ -204,7 +208,7 @@ std::string finite(const std::string& text) {
 }  // namespace
 
 void add_find_seam_command(CLI::App& parent, int& exit_code) {
-  auto options = std::make_shared<Options>();
+  auto options = std::make_shared<FindSeamOptions>();
   Command command(parent, "find-seam", "Find the weld seam in a point cloud from a file");
   command.option("CLOUD", options->cloud, "PCD (ascii, binary) or PLY (ascii, little endian)")
       .required();

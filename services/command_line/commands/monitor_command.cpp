@@ -25,7 +25,7 @@ namespace {
 constexpr std::int64_t kSecond = 1'000'000;  // us
 constexpr std::size_t kMostSeams = 10000;    // remembered, so that none is told twice
 
-struct Options {
+struct MonitorOptions {
   std::string cell;
   bool once = false, json = false, print_urls = false, seams = false;
   double seconds = 0;      // 0: until Ctrl-C
@@ -34,7 +34,7 @@ struct Options {
 
 volatile std::sig_atomic_t end_asked = 0;
 
-void print(const Options& options, const Traffic& traffic, const Bus& bus) {
+void print(const MonitorOptions& options, const Traffic& traffic, const Bus& bus) {
   if (options.json) {
     std::cout << traffic.json_line(steady_now(), utime_now()) << std::endl;
     return;
@@ -100,7 +100,7 @@ int wait_until_ready(Bus& bus, const std::function<bool()>& is_over) {
   return 1;
 }
 
-int run(const Options& options) {
+int run(const MonitorOptions& options) {
   const Configuration configuration =
       options.cell.empty() ? Configuration() : Configuration::from_file(options.cell);
   const auto settings = configuration.read<BusSettings>("bus");
@@ -140,7 +140,7 @@ int run(const Options& options) {
 }  // namespace
 
 void add_monitor_command(CLI::App& parent, int& exit_code) {
-  auto options = std::make_shared<Options>();
+  auto options = std::make_shared<MonitorOptions>();
   Command command(parent, "monitor", "Show what is on the bus, a line a channel");
   command.option(
       "--cell", options->cell,

@@ -16,7 +16,7 @@
 namespace arcstart::command_line {
 namespace {
 
-struct Options {
+struct ReplayCommandOptions {
   std::vector<std::string> paths;
   ReplayOptions replay;
   std::string pictures, seams;
@@ -64,7 +64,7 @@ void print(const ReplayResult& result, bool as_json) {
     std::cerr << "replay: a recording of the background alone, no workpiece scan in it\n";
 }
 
-int run(Options& options) {
+int run(ReplayCommandOptions& options) {
   if (options.print_channels) {
     std::cout << source_channels(options.paths, options.replay) << "\n";
     return 0;
@@ -98,7 +98,7 @@ int run(Options& options) {
 }  // namespace
 
 void add_replay_command(CLI::App& parent, int& exit_code) {
-  auto options = std::make_shared<Options>();
+  auto options = std::make_shared<ReplayCommandOptions>();
   Command command(parent, "replay", "Run the whole pipeline on recordings and tell each SEAM");
   command.option("LOG", options->paths, "Recordings by lcm-logger, merged by event time")
       .required();

@@ -14,7 +14,7 @@
 namespace arcstart::command_line {
 namespace {
 
-struct Options {
+struct ScanOptions {
   std::string kind, cell;
   Instance instance;
   ScanRequest request;
@@ -31,7 +31,7 @@ void catch_interrupts() {
   sigaction(SIGTERM, &action, nullptr);
 }
 
-int run(Options options) {
+int run(ScanOptions options) {
   options.request.kind = options.kind == "background" ? scan_t::BACKGROUND : scan_t::WORKPIECE;
   const Configuration configuration =
       options.cell.empty() ? Configuration() : Configuration::from_file(options.cell);
@@ -61,7 +61,7 @@ int run(Options options) {
 }  // namespace
 
 void add_scan_command(CLI::App& parent, int& exit_code) {
-  auto options = std::make_shared<Options>();
+  auto options = std::make_shared<ScanOptions>();
   Command command(parent, "scan",
                   "Run one scan in a live cell and print its SEAM as JSON (mm and rad)");
   command

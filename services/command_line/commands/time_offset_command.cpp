@@ -11,19 +11,18 @@
 #include "common/time.hpp"
 #include "services/calibration/files/calibration_file.hpp"
 #include "services/calibration/sweeps/time_offset.hpp"
+#include "services/command_line/commands/say.hpp"
 #include "services/command_line/recordings/recorded_sweeps.hpp"
 #include "services/command_line/recordings/recording.hpp"
 
 namespace arcstart::command_line {
 namespace {
 
-struct Options {
+struct TimeOffsetOptions {
   SweepOptions sweeps;
   std::string output;
   bool json = false;
 };
-
-void say(const std::string& text) { std::cerr << "time-offset: " << text << "\n"; }
 
 nlohmann::ordered_json to_json(const calibration::TimeOffset& found) {
   nlohmann::ordered_json json = {
@@ -49,17 +48,19 @@ nlohmann::ordered_json to_json(const calibration::TimeOffset& found) {
 
 void tell(const calibration::TimeOffset& found) {
   for (const calibration::SweepFinding& sweep : found.sweeps)
-    say(fmt::format("sweep at {:.0f} mm/s, {:.0f} mm/s across the face, {} stripes: {:.2f} ms",
+    say("time-offset",
+        fmt::format("sweep at {:.0f} mm/s, {:.0f} mm/s across the face, {} stripes: {:.2f} ms",
                     sweep.speed_mm_s, sweep.approach_mm_s, sweep.stripes, 1e3 * sweep.offset_s));
-  for (const std::string& warning : found.warnings) say("warning: " + warning);
-  if (!found.refused.empty()) return say("refused: " + found.refused);
-  say(fmt::format(
-      "time offset {:.2f} ms, standard deviation {:.2f} ms; the faces' residual is "
-      "{:.3f} mm, it was {:.3f} mm",
-      1e3 * found.offset_s, 1e3 * found.deviation_s, found.residual_mm, found.unmended_mm));
+  for (const std::string& warning : found.warnings) say("time-offset", "warning: " + warning);
+  if (!found.refused.empty()) return say("time-offset", "refused: " + found.refused);
+  say("time-offset",
+      fmt::format("time offset {:.2f} ms, standard deviation {:.2f} ms; the faces' residual is "
+                  "{:.3f} mm, it was {:.3f} mm",
+                  1e3 * found.offset_s, 1e3 * found.deviation_s, found.residual_mm,
+                  found.unmended_mm));
 }
 
-int run(const Options& options) {
+int run(const TimeOffsetOptions& options) {
   const auto [sweeps, calibration] = read_judged_sweeps(options.sweeps, "time-offset");
   const calibration::TimeOffset found = calibration::find_time_offset(sweeps.record, calibration);
   tell(found);
@@ -70,17 +71,17 @@ int run(const Options& options) {
   changed.made = utime_now();
   if (!(std::ofstream(options.output, std::ios::binary)
         << calibration::calibration_file_text(changed))) {
-    say(options.output + ": cannot be written");
+    say("time-offset", options.output + ": cannot be written");
     return 2;
   }
-  say(options.output + ": the calibration with this time offset");
+  say("time-offset", options.output + ": the calibration with this time offset");
   return 0;
 }
 
 }  // namespace
 
 void add_time_offset_command(CLI::App& parent, int& exit_code) {
-  auto options = std::make_shared<Options>();
+  auto options = std::make_shared<TimeOffsetOptions>();
   Command command(parent, "time-offset",
                   "How late images are stamped against positions, from recorded sweeps");
   options->sweeps.add_to(command);

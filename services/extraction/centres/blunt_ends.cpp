@@ -6,7 +6,7 @@
 namespace arcstart::extraction {
 namespace {
 
-constexpr double kReach = 1.5;  // of sigma: points looked for anew, and as many beyond them
+constexpr double kSearchReach = 1.5;  // of sigma: points looked for anew, and as many beyond them
 // Points at the end that its direction is not taken from, and those before them that it is; of
 // sigma.
 constexpr double kUnlikeEnd = 0.5, kDirectionFrom = 3;
@@ -48,10 +48,10 @@ Derivatives derivatives_at(const GreyImage& image, const GaussianKernels& kernel
 }
 
 // One end of a branch.
-class End {
+class BluntEnd {
  public:
-  End(const GreyImage& image, const GaussianKernels& kernels, const StripePath& selection,
-      const std::vector<RidgePoint>& points, const Branch& branch, bool last)
+  BluntEnd(const GreyImage& image, const GaussianKernels& kernels, const StripePath& selection,
+           const std::vector<RidgePoint>& points, const Branch& branch, bool last)
       : image_(image),
         kernels_(kernels),
         selection_(selection),
@@ -153,11 +153,11 @@ class End {
 void follow_blunt_ends(const GreyImage& image, const GaussianKernels& kernels, int border,
                        StripePath& selection, std::vector<RidgePoint>& points,
                        std::vector<float>& deviations) {
-  const int anew = static_cast<int>(kReach * kernels.sigma);
+  const int anew = static_cast<int>(kSearchReach * kernels.sigma);
   for (Branch& branch : selection.branches) {
     if (!branch.chosen) continue;
     for (const bool last : {false, true}) {
-      End end(image, kernels, selection, points, branch, last);
+      BluntEnd end(image, kernels, selection, points, branch, last);
       if (!end.find_direction()) continue;
       const std::size_t before = points.size();
       RidgePoint centre{};

@@ -9,7 +9,7 @@ namespace {
 
 // Worth and cost are in columns of clean stripe.
 constexpr float kBreakCost = 24;       // to leave a line for any other place
-constexpr int kNear = 4;               // columns within which a path goes on as on one line
+constexpr int kOneLine = 4;            // columns within which a path goes on as on one line
 constexpr float kLongestNearJump = 6;  // px
 constexpr int kFar = 100;              // columns over which a line may be found again after a gap
 constexpr float kGapCost = 4;          // to find it again there, at least
@@ -27,7 +27,7 @@ float offset_from_line(const Candidate& from, const Candidate& to) {
 float Selector::leaving_cost(const Candidate& from, const Candidate& to) const {
   const float gap = to.along - from.along;
   const float offset = offset_from_line(from, to);
-  if (to.line - from.line <= kNear) {
+  if (to.line - from.line <= kOneLine) {
     if (offset > kLongestNearJump) return break_cost_;
     return 0.5f * std::max(0.0f, offset - 0.5f) +
            0.3f * static_cast<float>(to.line - from.line - 1);
@@ -54,13 +54,13 @@ FrameVector<int> Selector::best_path() const {
         highest = score[from] - cost;
         previous[i] = from;
       };
-      for (int j = candidates_.line_begin[std::max(0, line - kNear)];
+      for (int j = candidates_.line_begin[std::max(0, line - kOneLine)];
            j < candidates_.line_begin[line]; ++j)
         consider(j, leaving_cost(candidates_[j], here));
       if (here.starts_strand)
         for (std::size_t k = in_reach; k < strand_ends.size(); ++k)
           if (const int j = strand_ends[k];
-              candidates_[j].line < line - kNear && score[j] - kGapCost > highest)
+              candidates_[j].line < line - kOneLine && score[j] - kGapCost > highest)
             consider(j, leaving_cost(candidates_[j], here));
       if (best >= 0) consider(best, break_cost_);
       score[i] = highest + here.worth;
@@ -78,7 +78,7 @@ FrameVector<int> Selector::best_path() const {
 }
 
 bool Selector::changes_stripe(const Candidate& from, const Candidate& to) const {
-  return from.strand != to.strand && to.line - from.line <= kNear &&
+  return from.strand != to.strand && to.line - from.line <= kOneLine &&
          offset_from_line(from, to) > kLongestNearJump;
 }
 

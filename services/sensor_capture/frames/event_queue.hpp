@@ -10,6 +10,8 @@
 
 namespace arcstart::sensor_capture {
 
+constexpr std::size_t kMostFramesWaiting = 30;  // with pixels: two seconds at 15 frames a second
+
 // Any thread may push and pop.
 class EventQueue {
  public:

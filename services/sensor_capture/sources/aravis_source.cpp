@@ -10,7 +10,6 @@
 namespace arcstart::sensor_capture {
 namespace {
 
-constexpr std::size_t kMostFramesWaiting = 30;
 constexpr auto kRetry = std::chrono::seconds(1);
 constexpr auto kShortestSilence = std::chrono::milliseconds(500);
 

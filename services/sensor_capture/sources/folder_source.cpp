@@ -11,7 +11,6 @@
 namespace arcstart::sensor_capture {
 namespace {
 
-constexpr std::size_t kMostFramesWaiting = 30;
 constexpr std::size_t kMostBytesKept = 256u << 20;        // of pixels
 constexpr std::int64_t kFirstDeviceTime = 1'000'000'000;  // ns
 

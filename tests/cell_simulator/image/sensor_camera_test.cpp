@@ -12,7 +12,7 @@ using namespace arcstart::cell_simulator;
 
 namespace {
 
-constexpr double degree = std::numbers::pi / 180;
+constexpr double kOneDegree = std::numbers::pi / 180;
 
 double angle(const Eigen::Vector3d& a, const Eigen::Vector3d& b) {
   return std::atan2(a.cross(b).norm(), a.dot(b));
@@ -61,18 +61,18 @@ TEST_CASE("the laser plane leans by its angle and meets the optical axis at the 
     const TrueSensor sensor = make_true_sensor(settings);
     const Eigen::Vector3d axis = Eigen::Vector3d::UnitZ();
     CHECK(sensor.laser_normal.norm() == Approx(1).epsilon(1e-12));
-    CHECK(std::asin(sensor.laser_normal.dot(axis)) == Approx(22 * degree).epsilon(1e-12));
+    CHECK(std::asin(sensor.laser_normal.dot(axis)) == Approx(22 * kOneDegree).epsilon(1e-12));
     CHECK(sensor.laser_normal.dot(300 * axis) + sensor.laser_offset == Approx(0).margin(1e-12));
     CHECK(sensor.laser_normal.dot(sensor.projector) + sensor.laser_offset ==
           Approx(0).margin(1e-12));
     CHECK(sensor.laser_normal.dot(sensor.fan_direction) == Approx(0).margin(1e-12));
-    CHECK(sensor.fan_half_angle == Approx(23 * degree));
+    CHECK(sensor.fan_half_angle == Approx(23 * kOneDegree));
   }
   // Without roll the normal makes that angle with the search direction, the image's v.
   SensorSettings settings;
   settings.laser_roll_deg = 0;
   CHECK(angle(make_true_sensor(settings).laser_normal, Eigen::Vector3d::UnitY()) ==
-        Approx(22 * degree));
+        Approx(22 * kOneDegree));
 }
 
 TEST_CASE("the hand-eye is a rotation with no zero in it") {
@@ -101,7 +101,7 @@ TEST_CASE("taught poses look at the work as they should") {
     CHECK(axis.norm() == Approx(300));
     CHECK((T_base_camera.inverse() * target - Eigen::Vector3d(0, 0, 300)).norm() < 1e-9);
     CHECK(axis.x() == Approx(0).margin(1e-9));
-    CHECK(angle(-axis, Eigen::Vector3d::UnitZ()) == Approx(38 * degree));
+    CHECK(angle(-axis, Eigen::Vector3d::UnitZ()) == Approx(38 * kOneDegree));
     CHECK(T_base_camera.translation().y() < -100);  // over the open side
     // The image's v runs along the search, and the projector stands ahead.
     CHECK((T_base_camera.linear() * Eigen::Vector3d::UnitY())

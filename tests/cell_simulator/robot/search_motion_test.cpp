@@ -11,7 +11,7 @@ const RigidTransform kBegin =
     make_transform({800, -60, 160}, Eigen::Quaterniond(0.1, 0.9, -0.3, 0.2));
 const RigidTransform kEnd =
     make_transform({950, -60, 160}, Eigen::Quaterniond(0.1, 0.9, -0.3, 0.2));
-constexpr std::int64_t kPeriod = 71428;  // 14 frames a second
+constexpr std::int64_t kFramePeriod = 71428;  // 14 frames a second
 constexpr std::int64_t kNow = 1'700'000'000'123'456;
 
 double along(const SearchMotion& motion, std::int64_t utime) {
@@ -44,10 +44,10 @@ TEST_CASE(
     "trapezoid") {
   for (const double phase : {0.0, 0.25, 0.999}) {
     SearchMotion motion(kBegin, kEnd, {});
-    const std::int64_t start = motion.search(kNow, kNow - 40'000, kPeriod, phase);
+    const std::int64_t start = motion.search(kNow, kNow - 40'000, kFramePeriod, phase);
     CHECK(start >= kNow - 40'000 + 500'000);
-    CHECK(start < kNow - 40'000 + 500'000 + kPeriod);
-    CHECK(start % kPeriod == std::llround(phase * kPeriod));
+    CHECK(start < kNow - 40'000 + 500'000 + kFramePeriod);
+    CHECK(start % kFramePeriod == std::llround(phase * kFramePeriod));
 
     CHECK(along(motion, start) == 0);
     CHECK_FALSE(motion.moving(start - 1));
@@ -68,12 +68,12 @@ TEST_CASE(
 
 TEST_CASE("a scan that is heard of late still leaves 0.3 s of notice") {
   SearchMotion motion(kBegin, kEnd, {});
-  CHECK(motion.search(kNow, kNow - 5'000'000, kPeriod, 0) >= kNow + SearchMotion::kNotice);
+  CHECK(motion.search(kNow, kNow - 5'000'000, kFramePeriod, 0) >= kNow + SearchMotion::kNotice);
 }
 
 TEST_CASE("after the scan the arm goes back fast, and the next search waits for it") {
   SearchMotion motion(kBegin, kEnd, {});
-  const std::int64_t start = motion.search(kNow, kNow, kPeriod, 0.5);
+  const std::int64_t start = motion.search(kNow, kNow, kFramePeriod, 0.5);
   const std::int64_t ended = start + 3'500'000;
   motion.go_back(ended);
   CHECK(along(motion, ended + SearchMotion::kNotice) == Approx(150));
@@ -85,16 +85,16 @@ TEST_CASE("after the scan the arm goes back fast, and the next search waits for 
   motion.go_back(ended + 100'000);  // said again: nothing changes
   CHECK(motion.at_rest_from(ended) == back);
 
-  const std::int64_t next = motion.search(ended + 200'000, ended + 200'000, kPeriod, 0.5);
+  const std::int64_t next = motion.search(ended + 200'000, ended + 200'000, kFramePeriod, 0.5);
   CHECK(next >= back);
-  CHECK(next < back + kPeriod);
+  CHECK(next < back + kFramePeriod);
   CHECK(along(motion, next + 1'000'000) == Approx(48.75));
   check_smooth(motion, start, next + 3'200'000, 388, 1000);
 }
 
 TEST_CASE("a search cut short is braked before the arm goes back") {
   SearchMotion motion(kBegin, kEnd, {});
-  const std::int64_t start = motion.search(kNow, kNow, kPeriod, 0.1);
+  const std::int64_t start = motion.search(kNow, kNow, kFramePeriod, 0.1);
   const std::int64_t ended = start + 1'000'000;
   motion.go_back(ended);
   const std::int64_t braked = ended + SearchMotion::kNotice;
@@ -115,7 +115,7 @@ TEST_CASE("a pose asked for is gone to and kept, and left for the next search") 
   CHECK(motion.pose(there + 600'000'000).isApprox(pose, 1e-12));
   check_smooth(motion, kNow, there, 500, 1000);
 
-  const std::int64_t start = motion.search(there + 1'000'000, there + 1'000'000, kPeriod, 0);
+  const std::int64_t start = motion.search(there + 1'000'000, there + 1'000'000, kFramePeriod, 0);
   CHECK(motion.pose(start).isApprox(kBegin, 1e-12));
   CHECK(along(motion, start + 1'000'000) == Approx(48.75));
   check_smooth(motion, there, start + 3'100'000, 500, 1000);
@@ -138,7 +138,7 @@ TEST_CASE("further sweeps go back and to at their own speeds, in one scan, and e
   SearchMotionSettings settings;
   settings.further_sweeps = {50, 120, 120};
   SearchMotion motion(kBegin, kEnd, settings);
-  const std::int64_t start = motion.search(kNow, kNow, kPeriod, 0.5);
+  const std::int64_t start = motion.search(kNow, kNow, kFramePeriod, 0.5);
   // 150 mm and the time to get to speed, at 50, 50, 120 and 120 mm/s.
   const std::int64_t end = start + 2 * 3'050'000 + 2 * 1'370'000;
   CHECK(motion.at_rest_from(kNow) == end);

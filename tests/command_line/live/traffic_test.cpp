@@ -14,7 +14,7 @@ using Catch::Matchers::Contains;
 namespace {
 
 template <class Message>
-std::vector<std::uint8_t> encoded(const Message& message) {
+std::vector<std::uint8_t> bytes_of(const Message& message) {
   std::vector<std::uint8_t> bytes(static_cast<std::size_t>(message.getEncodedSize()));
   message.encode(bytes.data(), 0, static_cast<int>(bytes.size()));
   return bytes;
@@ -29,7 +29,7 @@ robot_pose_t position(std::int64_t utime, std::int64_t run_id, std::int64_t seq)
   return pose;
 }
 
-constexpr std::int64_t kSecond = 1'000'000;
+constexpr std::int64_t kOneSecond = 1'000'000;
 
 const nlohmann::json& line(const nlohmann::json& list, const std::string& channel) {
   for (const auto& entry : list)
@@ -42,11 +42,11 @@ const nlohmann::json& line(const nlohmann::json& list, const std::string& channe
 
 TEST_CASE("rate and size are those of what came") {
   Traffic traffic;
-  std::int64_t now = 100 * kSecond;
+  std::int64_t now = 100 * kOneSecond;
   traffic.tick(now);
   for (int i = 0; i < 500; ++i) {  // 10 s at 50 Hz
     now += 20'000;
-    traffic.take("ROBOT0_POSE", encoded(position(now, 1, i)), now);
+    traffic.take("ROBOT0_POSE", bytes_of(position(now, 1, i)), now);
     traffic.take("OTHER", std::vector<std::uint8_t>(100), now);
     if (i % 50 == 49) traffic.tick(now);
   }
@@ -60,7 +60,7 @@ TEST_CASE("rate and size are those of what came") {
   CHECK_FALSE(line(list, "OTHER").contains("gaps"));
 
   // Silent for 5 s: the rate is 0 and the age grows.
-  for (int i = 0; i < 6; ++i) traffic.tick(now += kSecond);
+  for (int i = 0; i < 6; ++i) traffic.tick(now += kOneSecond);
   CHECK(line(traffic.json(now, now), "ROBOT0_POSE")["rate_hz"] == 0);
   CHECK(line(traffic.json(now, now), "ROBOT0_POSE")["age_s"] == Approx(6));
   CHECK(line(traffic.json(now, now), "OTHER")["age_s"] == Approx(6));
@@ -69,28 +69,29 @@ TEST_CASE("rate and size are those of what came") {
 TEST_CASE("gaps are counted by seq, anew with each run") {
   Traffic traffic;
   for (const std::int64_t seq : {5, 6, 9, 8, 10})
-    traffic.take("ROBOT0_POSE", encoded(position(1, 1, seq)), 1);
-  traffic.take("ROBOT0_POSE", encoded(position(1, 2, 3)), 1);
+    traffic.take("ROBOT0_POSE", bytes_of(position(1, 1, seq)), 1);
+  traffic.take("ROBOT0_POSE", bytes_of(position(1, 2, 3)), 1);
   CHECK(line(traffic.json(2, 2), "ROBOT0_POSE")["gaps"] == 2);
   // A hostile seq must not overflow the sum.
   for (const std::int64_t seq : {std::int64_t{4}, std::numeric_limits<std::int64_t>::max()})
-    traffic.take("ROBOT0_POSE", encoded(position(1, 2, seq)), 1);
-  traffic.take("ROBOT0_POSE", encoded(position(1, 3, 0)), 1);
-  traffic.take("ROBOT0_POSE", encoded(position(1, 3, std::numeric_limits<std::int64_t>::max())), 1);
+    traffic.take("ROBOT0_POSE", bytes_of(position(1, 2, seq)), 1);
+  traffic.take("ROBOT0_POSE", bytes_of(position(1, 3, 0)), 1);
+  traffic.take("ROBOT0_POSE", bytes_of(position(1, 3, std::numeric_limits<std::int64_t>::max())),
+               1);
   CHECK(line(traffic.json(2, 2), "ROBOT0_POSE")["gaps"] ==
         std::numeric_limits<std::int64_t>::max());
 }
 
 TEST_CASE("what is no message of the channel's type is counted as undecodable") {
   Traffic traffic;
-  auto bytes = encoded(position(1, 1, 1));
+  auto bytes = bytes_of(position(1, 1, 1));
   traffic.take("ROBOT0_POSE", bytes, 1);
   bytes.push_back(0);
   traffic.take("ROBOT0_POSE", bytes, 1);
   traffic.take("ROBOT0_POSE", {}, 1);
   auto senseless = position(1, 1, 2);
   senseless.position[1] = std::numeric_limits<double>::quiet_NaN();
-  traffic.take("ROBOT0_POSE", encoded(senseless), 1);
+  traffic.take("ROBOT0_POSE", bytes_of(senseless), 1);
   for (const std::string channel : {"A_IMAGE", "A_PREVIEW", "A_STRIPE", "A_PROFILE", "A_SCAN",
                                     "A_SCAN_COMMAND", "A_CAMERA_COMMAND", "A_CALIBRATION", "A_SEAM",
                                     "A_ANY_STATUS", "CELL_COMMAND", "CELL_TRUTH"}) {
@@ -106,12 +107,12 @@ TEST_CASE("states are shown, and nothing unprintable reaches the terminal") {
   status.utime = status.run_id = 1;
   status.state = service_status_t::DEGRADED;
   status.last_error = "camera\n\x1b[31mlost";
-  traffic.take("LASER0_SENSOR_CAPTURE_STATUS", encoded(status), 1);
+  traffic.take("LASER0_SENSOR_CAPTURE_STATUS", bytes_of(status), 1);
   scan_t scan{};
   scan.utime = scan.run_id = 1;
   scan.state = scan_t::SCANNING;
   scan.images = 12;
-  traffic.take("LASER0_SCAN", encoded(scan), 1);
+  traffic.take("LASER0_SCAN", bytes_of(scan), 1);
   traffic.take("\x1b[2J\xff bad\nname", {}, 1);
   const std::string table = traffic.table(2, 2);
   CHECK_THAT(table, Contains("degraded: camera\\x0a\\x1b[31mlost") &&

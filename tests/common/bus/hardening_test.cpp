@@ -12,7 +12,7 @@ using namespace arcstart;
 namespace {
 
 template <class Message>
-std::vector<std::uint8_t> encoded(const Message& message) {
+std::vector<std::uint8_t> bytes_of(const Message& message) {
   std::vector<std::uint8_t> bytes(static_cast<std::size_t>(message.getEncodedSize()));
   message.encode(bytes.data(), 0, static_cast<int>(bytes.size()));
   return bytes;
@@ -23,7 +23,7 @@ std::vector<std::uint8_t> encoded(const Message& message) {
 // message.
 template <class Message>
 void attack(const Message& message) {
-  const auto good = encoded(message);
+  const auto good = bytes_of(message);
   for (std::size_t at = 8; at + 4 <= good.size(); ++at)
     for (const std::uint32_t hostile :
          {0u, 0xFFFFFFFFu, 0x80000000u, 0x7FFFFFFFu, 0x40000001u, 0x3B9ACA00u}) {
@@ -94,7 +94,7 @@ TEST_CASE("a count of -1 or beyond the packet is refused") {
   image_t image{};
   image.size = 4;
   image.data.assign(4, 0);
-  auto bytes = encoded(image);
+  auto bytes = bytes_of(image);
   for (const std::int32_t hostile : {-1, 5, 0x7fffffff, 1'000'000'000}) {
     for (int i = 0; i < 4; ++i)
       bytes[bytes.size() - 8 + static_cast<std::size_t>(i)] =

@@ -41,7 +41,7 @@ struct Drawing {
   }
 };
 
-Stripe extract(const cv::Mat& grey) {
+Stripe stripe_of(const cv::Mat& grey) {
   StripeExtractor extractor(ExtractionSettings{});
   return extractor.extract(view_of(grey));
 }
@@ -90,7 +90,7 @@ TEST_CASE("a ghost stripe is a second candidate, also where the stripe has a gap
   const double gap = GENERATE(0, 16, 40, 70), beside = GENERATE(-60, 45, 90);
   drawing.stripe = {{-5, 180, 400, 200, 140}, {400 + gap, 200, 805, 215, 140}};
   drawing.others = {{320, 196 + beside, 560, 206 + beside, 0.35 * 140}};
-  const Stripe stripe = extract(drawing.grey());
+  const Stripe stripe = stripe_of(drawing.grey());
   const Result result = judge(drawing, stripe);
   INFO("gap " << gap << ", ghost " << beside << " px beside");
   CHECK(result.false_ones == 0);
@@ -103,7 +103,7 @@ TEST_CASE("no column has two chosen centres, and no gap is filled") {
   Drawing drawing;
   const double gap = GENERATE(10, 30, 69);
   drawing.stripe = {{-5, 100, 300, 140, 120}, {300 + gap, 140 + 0.13 * gap, 805, 240, 120}};
-  const Stripe stripe = extract(drawing.grey());
+  const Stripe stripe = stripe_of(drawing.grey());
   std::vector<int> in_column(drawing.width, 0);
   for (const StripeCentre& c : stripe.centres) {
     if (!c.chosen) continue;
@@ -125,7 +125,7 @@ TEST_CASE("where one surface hides another, both stripes are followed to their e
   Drawing drawing;
   const double overlap = GENERATE(0, 2, 4);
   drawing.stripe = {{-5, 100, 400 + overlap, 120, 120}, {400, 300, 805, 420, 45}};
-  const Stripe stripe = extract(drawing.grey());
+  const Stripe stripe = stripe_of(drawing.grey());
   float first_end = 0, second_begin = 1000;
   for (const StripeCentre& c : stripe.centres) {
     if (!c.chosen) continue;
@@ -149,7 +149,7 @@ TEST_CASE("the profile of a Tee joint is followed around its corner, not along t
                     {400, 248, 620, 134, bright},  // upright plate
                     {620, 80, 805, 86, 110}};      // table behind
   drawing.others = {{400, 248, 560, 331, 0.35 * 140}, {260, 320, 400, 248, 0.2 * bright}};
-  const Result result = judge(drawing, extract(drawing.grey()));
+  const Result result = judge(drawing, stripe_of(drawing.grey()));
   CHECK(result.false_ones <= 2);
   CHECK(result.covered > 0.975);
   CHECK(result.seconds > 100);
@@ -160,7 +160,7 @@ TEST_CASE("steps, and pieces of 40 px between them, are kept") {
   Drawing drawing;
   drawing.down = GENERATE(false, true);
   drawing.stripe = {{-5, 100, 300, 105, 120}, {300, 180, 340, 181, 120}, {340, 250, 805, 262, 120}};
-  const Stripe stripe = extract(drawing.grey());
+  const Stripe stripe = stripe_of(drawing.grey());
   const Result result = judge(drawing, stripe);
   CHECK(result.false_ones == 0);
   CHECK(result.covered > 0.97);
@@ -175,7 +175,7 @@ TEST_CASE("in a coarse image a short surface is followed, not the reflection tha
   drawing.width = 400, drawing.height = 300, drawing.line = 0.8;
   drawing.stripe = {{-5, 197, 211, 147, 150}, {212, 148, 252, 169.3, 120}, {285, 114, 405, 80, 60}};
   drawing.others = {{212, 145, 280, 115, 40}};
-  const Stripe stripe = extract(drawing.grey());
+  const Stripe stripe = stripe_of(drawing.grey());
   const auto on_surface =
       std::count_if(stripe.centres.begin(), stripe.centres.end(), [&](const StripeCentre& centre) {
         return centre.chosen && centre.u > 216 &&
@@ -187,7 +187,7 @@ TEST_CASE("in a coarse image a short surface is followed, not the reflection tha
 TEST_CASE("a dim piece of the stripe is kept beside bright ones") {
   Drawing drawing;
   drawing.stripe = {{-5, 100, 400, 120, 180}, {400, 170, 805, 150, 20}};
-  const Result result = judge(drawing, extract(drawing.grey()));
+  const Result result = judge(drawing, stripe_of(drawing.grey()));
   CHECK(result.false_ones == 0);
   CHECK(result.covered > 0.97);
 }
@@ -209,7 +209,7 @@ TEST_CASE("blobs and short streaks draw the stripe nowhere") {
   add_blob(200, 260, 15, 4);
   add_blob(600, 100, 6, 10);
   add_stripe(light, 500, 300, 525, 320, 200, 1.2);
-  const Result result = judge(drawing, extract(expose(light, 2)));
+  const Result result = judge(drawing, stripe_of(expose(light, 2)));
   CHECK(result.false_ones == 0);
   CHECK(result.covered > 0.97);
 }

@@ -19,7 +19,7 @@ using namespace arcstart::extraction;
 
 namespace {
 
-std::vector<RidgePoint> detect(const cv::Mat& grey, double sigma, double least_curvature) {
+std::vector<RidgePoint> points_of(const cv::Mat& grey, double sigma, double least_curvature) {
   RidgeDetector detector;
   std::vector<RidgePoint> points;
   detector.detect(view_of(grey), gaussian_kernels(sigma), least_curvature, points);
@@ -70,7 +70,7 @@ cv::Mat exact_bend(const cv::Mat& image) {
 
 void check_same_as_judge(const cv::Mat& grey, double sigma, double least_curvature) {
   const GaussianKernels kernels = gaussian_kernels(sigma);
-  const auto points = detect(grey, sigma, least_curvature);
+  const auto points = points_of(grey, sigma, least_curvature);
   const auto judge =
       judge_ridge_points(grey, kernels, least_curvature, RidgeDetector::margin(kernels));
   const Verdict verdict = compare(judge, points);

@@ -16,7 +16,7 @@ constexpr double kPixel = 0.12;  // across the line of sight; mm
 // A stripe's way through the corner at y = z = 0: in along the base plate from y < 0, in under the
 // upright as far as can be seen past its edge, up its face. The sensor looks from the front, 38 deg
 // from above.
-struct Drawing {
+struct CornerDrawing {
   double gap = 1;         // mm
   double rounding = 1.5;  // standard deviation of the smoothing in the image; px
   int downsample = 1;
@@ -41,7 +41,7 @@ struct Centre {
 };
 
 // Smoothing moves a centre along its line of sight alone. What is parted ends in straight lines.
-std::vector<Centre> smoothed(const std::vector<Centre>& centres, const Drawing& drawing) {
+std::vector<Centre> smoothed(const std::vector<Centre>& centres, const CornerDrawing& drawing) {
   std::vector<Centre> result = centres;
   if (drawing.parted) return result;
   const int reach = static_cast<int>(4 * drawing.rounding);
@@ -56,7 +56,7 @@ std::vector<Centre> smoothed(const std::vector<Centre>& centres, const Drawing& 
   return result;
 }
 
-Corner draw(const Drawing& drawing) {
+Corner draw_corner(const CornerDrawing& drawing) {
   Corner corner;
   const double angle = drawing.upright_deg * M_PI / 180, lean = 38 * M_PI / 180;
   const Eigen::Vector3d up(0, -std::cos(angle), std::sin(angle));
@@ -102,8 +102,8 @@ struct Measured {
   double mean = 0, deviation = 0, farthest = 0;  // mm; farthest: a stripe's from the truth
 };
 
-Measured measure(const Drawing& drawing) {
-  const Corner corner = draw(drawing);
+Measured measure(const CornerDrawing& drawing) {
+  const Corner corner = draw_corner(drawing);
   const auto gaps = root_gaps(corner.cloud, corner.plates, corner.line);
   REQUIRE(gaps.size() == corner.cloud.stripes.size());
   const double truth = drawing.gap * std::sin(drawing.upright_deg * M_PI / 180);

@@ -13,7 +13,7 @@ using namespace arcstart::seam_finding::synthetic;
 
 namespace {
 
-constexpr std::int64_t kSecond = 1'000'000;
+constexpr std::int64_t kOneSecond = 1'000'000;
 
 // A scan of so many empty stripes: what they show does not matter here.
 ScanMessages scan_of(int images, ScanIdentity identity = {}) {
@@ -101,7 +101,7 @@ TEST_CASE("no order between the channels makes a difference") {
     if (i == 1) messages.profiles.erase(messages.profiles.begin() + 4);  // lost on its way
     if (i == 1) messages.profiles.pop_back();                            // the last one, too
     add(traffic, messages);
-    identity.scan_id += 10 * kSecond;
+    identity.scan_id += 10 * kOneSecond;
     identity.first_seq += 100;
     identity.kind = scan_t::BACKGROUND;
   }
@@ -151,8 +151,9 @@ TEST_CASE("a restarted sensor_capture ends the scan with the same refusal, in an
   ScanMessages messages = scan_of(8);
   for (int i = 0; i < 3; ++i) traffic.states.push_back(messages.scanning);
   traffic.profiles = messages.profiles;
-  traffic.states.push_back(idle_state(messages.scanning.run_id + kSecond));
-  ScanIdentity next{messages.scanning.run_id + kSecond, messages.scanning.scan_id + 60 * kSecond};
+  traffic.states.push_back(idle_state(messages.scanning.run_id + kOneSecond));
+  ScanIdentity next{messages.scanning.run_id + kOneSecond,
+                    messages.scanning.scan_id + 60 * kOneSecond};
   add(traffic, scan_of(6, next));
   for (int seed = 0; seed < 200; ++seed) {
     const auto scans = deliver(traffic, seed, seed == 0 ? 1 : seed == 1 ? -1 : 0);
@@ -170,7 +171,7 @@ TEST_CASE("a scan that had ended before the restart is answered when its profile
   ScanCollector collector;
   const ScanMessages messages = scan_of(4);
   collector.take(messages.ended);
-  collector.take(idle_state(messages.ended.run_id + kSecond));
+  collector.take(idle_state(messages.ended.run_id + kOneSecond));
   CHECK_FALSE(collector.next());
   for (const auto& profile : messages.profiles) collector.take(profile);
   const auto scan = collector.next();
@@ -183,7 +184,7 @@ TEST_CASE("a lost end is told by the next scan") {
   ScanCollector collector;
   const ScanMessages first = scan_of(7);
   ScanMessages second =
-      scan_of(5, {.scan_id = first.scanning.scan_id + 9 * kSecond, .first_seq = 600});
+      scan_of(5, {.scan_id = first.scanning.scan_id + 9 * kOneSecond, .first_seq = 600});
   collector.take(first.scanning);
   for (const auto& profile : first.profiles) collector.take(profile);
   second.scanning.previous_scan_id = first.scanning.scan_id;
@@ -250,7 +251,7 @@ TEST_CASE("a scan of which no end is ever told does not keep the next from its a
   ScanCollector collector;
   const ScanMessages lost = scan_of(5);
   const ScanMessages next =
-      scan_of(5, {.scan_id = lost.scanning.scan_id + 9 * kSecond, .first_seq = 700});
+      scan_of(5, {.scan_id = lost.scanning.scan_id + 9 * kOneSecond, .first_seq = 700});
   for (const auto& profile : lost.profiles) collector.take(profile);
   collector.take(next.scanning);
   for (const auto& profile : next.profiles) collector.take(profile);
@@ -265,7 +266,7 @@ TEST_CASE("ids without end do not fill the memory") {
   ScanCollector collector;
   profile_t profile = scan_of(1).profiles.front();
   for (int i = 0; i < 10000; ++i) {
-    profile.scan_id += kSecond;
+    profile.scan_id += kOneSecond;
     collector.take(profile);
   }
   CHECK_FALSE(collector.next());

@@ -43,14 +43,14 @@ Bench bench_of(const std::vector<synthetic::Box>& on_base) {
   return bench;
 }
 
-const Scales kScales = scales_of_test(3.6, 0.6, 0.02);
+const Scales kBenchScales = scales_of_test(3.6, 0.6, 0.02);
 
 std::array<SeamEnd, 2> ends_of(const Bench& bench, const Coverage& coverage) {
   Joint joint;
   joint.plates = bench.plates;
   joint.line = bench.line;
   joint.coverage = coverage;
-  return find_crossing_ends(bench.cloud, joint, kScales, {});
+  return find_crossing_ends(bench.cloud, joint, kBenchScales, {});
 }
 
 }  // namespace
@@ -61,7 +61,7 @@ TEST_CASE("a seam goes on behind what hides it, however long, and ends where a p
     const Bench bench =
         hidden ? bench_of({box_at({0, -8, 10}, {120, 0, 50}), box_at({40, 3, 10}, {80, 20, 45})})
                : bench_of({box_at({0, -8, 10}, {35, 0, 50}), box_at({75, -8, 10}, {120, 0, 50})});
-    const Coverage course = find_coverage(bench.cloud, bench.plates, bench.line, kScales);
+    const Coverage course = find_coverage(bench.cloud, bench.plates, bench.line, kBenchScales);
     INFO(hidden);
     CHECK(std::abs(course.end - 120) < 4);
     if (hidden)
@@ -86,18 +86,18 @@ TEST_CASE("a reflection in one of the stripes behind what hides a seam does not 
     break;
   }
   REQUIRE(spoilt >= 4);
-  const Coverage course = find_coverage(bench.cloud, bench.plates, bench.line, kScales);
+  const Coverage course = find_coverage(bench.cloud, bench.plates, bench.line, kBenchScales);
   CHECK(std::abs(course.begin) < 4);
   CHECK(std::abs(course.end - 120) < 4);
-  const auto stripes = plate_stripes(bench.cloud, bench.plates, bench.line, kScales);
-  CHECK(seen_on_plate(bench.cloud, stripes[0], SeamSide::kEnd, 40, kScales) > 116);
+  const auto stripes = plate_stripes(bench.cloud, bench.plates, bench.line, kBenchScales);
+  CHECK(seen_on_plate(bench.cloud, stripes[0], SeamSide::kEnd, 40, kBenchScales) > 116);
 }
 
 TEST_CASE("a start that is hidden lies where both plates are seen to begin beyond what hides it") {
   // A box before the seam from its begin on, over which both plates are seen.
   const Bench bench =
       bench_of({box_at({0, -8, 10}, {120, 0, 50}), box_at({-1, 2, 10}, {30, 14, 22})});
-  const Coverage course = find_coverage(bench.cloud, bench.plates, bench.line, kScales);
+  const Coverage course = find_coverage(bench.cloud, bench.plates, bench.line, kBenchScales);
   REQUIRE(course.begin > 20);
   const SeamEnd start = ends_of(bench, course)[0];
   CHECK(start.by_edges);
@@ -108,10 +108,10 @@ TEST_CASE("a start that is hidden lies where both plates are seen to begin beyon
 TEST_CASE("what lies in a plate's plane beyond a place that is seen past is no part of it") {
   const Bench bench =
       bench_of({box_at({0, -8, 10}, {120, 0, 50}), box_at({140, 12, 0}, {180, 40, 10})});
-  const auto stripes = plate_stripes(bench.cloud, bench.plates, bench.line, kScales);
-  CHECK(seen_on_plate(bench.cloud, stripes[0], SeamSide::kEnd, 120, kScales) < 120.5);
-  CHECK(seen_on_plate(bench.cloud, stripes[0], SeamSide::kEnd, 120, kScales) > 116);
-  CHECK(plate_extent(bench.cloud, stripes[0], SeamSide::kEnd, 120, kScales).past > 119.5);
+  const auto stripes = plate_stripes(bench.cloud, bench.plates, bench.line, kBenchScales);
+  CHECK(seen_on_plate(bench.cloud, stripes[0], SeamSide::kEnd, 120, kBenchScales) < 120.5);
+  CHECK(seen_on_plate(bench.cloud, stripes[0], SeamSide::kEnd, 120, kBenchScales) > 116);
+  CHECK(plate_extent(bench.cloud, stripes[0], SeamSide::kEnd, 120, kBenchScales).past > 119.5);
 }
 
 TEST_CASE("a thing as high as a plate that touches its end does not prolong it") {
@@ -119,7 +119,7 @@ TEST_CASE("a thing as high as a plate that touches its end does not prolong it")
   for (const double from : {22.0, 28.0, 35.0, 45.0}) {
     const Bench bench =
         bench_of({box_at({0, -8, 10}, {150, 0, 50}), box_at({120, from, 0}, {200, 60, 10})});
-    const Coverage course = find_coverage(bench.cloud, bench.plates, bench.line, kScales);
+    const Coverage course = find_coverage(bench.cloud, bench.plates, bench.line, kBenchScales);
     const SeamEnd end = ends_of(bench, course)[1];
     INFO(from);
     INFO(end.along);

@@ -8,7 +8,7 @@ using namespace arcstart::sensor_capture;
 
 namespace {
 
-constexpr std::int64_t kPeriod = 20'000;
+constexpr std::int64_t kPosePeriod = 20'000;
 
 struct Tool {
   Standstill standstill{StandstillSettings{}};
@@ -20,7 +20,7 @@ struct Tool {
     const Eigen::Quaterniond turned(
         Eigen::AngleAxisd(degrees * M_PI / 180, Eigen::Vector3d::UnitY()));
     bool stands = false;
-    for (int i = 0; i < reports; ++i, utime += kPeriod)
+    for (int i = 0; i < reports; ++i, utime += kPosePeriod)
       stands = standstill.take(
           utime, at + Eigen::Vector3d(noise(random), noise(random), noise(random)), turned);
     return stands;

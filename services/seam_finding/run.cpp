@@ -4,9 +4,9 @@
 #include "common/service.hpp"
 #include "services/seam_finding/seam_finding_app.hpp"
 
-int main(int argc, char** argv) {
-  using namespace arcstart;
-  using namespace arcstart::seam_finding;
+namespace arcstart::seam_finding {
+
+int run(int argc, char** argv) {
   const ServiceDescription description{"seam_finding",
                                        "finds the weld seam in a scan, and where it starts"};
   return run_service(argc, argv, description, [](ServiceContext& context) -> std::unique_ptr<App> {
@@ -14,3 +14,5 @@ int main(int argc, char** argv) {
         context.bus, context.settings<SeamFindingSettings>("seam_finding"), context.instance);
   });
 }
+
+}  // namespace arcstart::seam_finding

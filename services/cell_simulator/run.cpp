@@ -1,9 +1,9 @@
 // arcstart-cell-simulator: a GigE Vision camera and a FANUC robot that are not there.
 #include "services/cell_simulator/cell_simulator_app.hpp"
 
-int main(int argc, char** argv) {
-  using namespace arcstart;
-  using namespace arcstart::cell_simulator;
+namespace arcstart::cell_simulator {
+
+int run(int argc, char** argv) {
   const ServiceDescription description{"cell_simulator",
                                        "stands for the cell: a GigE Vision camera, a FANUC M-20iA "
                                        "that sends HSPO, and what they see"};
@@ -13,3 +13,5 @@ int main(int argc, char** argv) {
                                               context.run_id);
   });
 }
+
+}  // namespace arcstart::cell_simulator

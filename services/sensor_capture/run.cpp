@@ -2,10 +2,9 @@
 #include "services/sensor_capture/sources/aravis_source.hpp"
 #include "services/sensor_capture/sources/folder_source.hpp"
 
-using namespace arcstart;
-using namespace arcstart::sensor_capture;
+namespace arcstart::sensor_capture {
 
-int main(int argc, char** argv) {
+int run(int argc, char** argv) {
   const ServiceDescription description{
       "sensor_capture", "takes frames from the camera, switches its laser and owns the scans"};
   return run_service(argc, argv, description, [](ServiceContext& context) {
@@ -20,3 +19,5 @@ int main(int argc, char** argv) {
                                               context.run_id, std::move(source));
   });
 }
+
+}  // namespace arcstart::sensor_capture

@@ -4,9 +4,9 @@
 #include "common/service.hpp"
 #include "services/extraction/extraction_app.hpp"
 
-int main(int argc, char** argv) {
-  using namespace arcstart;
-  using namespace arcstart::extraction;
+namespace arcstart::extraction {
+
+int run(int argc, char** argv) {
   const ServiceDescription description{"extraction",
                                        "finds the laser stripe's centres in each camera image"};
   return run_service(argc, argv, description, [](ServiceContext& context) -> std::unique_ptr<App> {
@@ -14,3 +14,5 @@ int main(int argc, char** argv) {
         context.bus, context.settings<ExtractionSettings>("extraction"), context.instance);
   });
 }
+
+}  // namespace arcstart::extraction

@@ -1,10 +1,9 @@
 #include "services/robot_pose/hspo_source.hpp"
 #include "services/robot_pose/robot_pose_app.hpp"
 
-using namespace arcstart;
-using namespace arcstart::robot_pose;
+namespace arcstart::robot_pose {
 
-int main(int argc, char** argv) {
+int run(int argc, char** argv) {
   const ServiceDescription description{
       "robot_pose", "listens to the robot's controller and puts its positions on the bus",
       /*of_robot=*/true};
@@ -15,3 +14,5 @@ int main(int argc, char** argv) {
                                           std::move(source));
   });
 }
+
+}  // namespace arcstart::robot_pose

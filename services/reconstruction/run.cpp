@@ -1,9 +1,9 @@
 // arcstart-reconstruction: stripes and robot positions to points in the robot's base frame.
 #include "services/reconstruction/reconstruction_app.hpp"
 
-int main(int argc, char** argv) {
-  using namespace arcstart;
-  using namespace arcstart::reconstruction;
+namespace arcstart::reconstruction {
+
+int run(int argc, char** argv) {
   return run_service(
       argc, argv, {"reconstruction", "carries laser stripes to points in the robot's base frame"},
       [](ServiceContext& context) -> std::unique_ptr<App> {
@@ -11,3 +11,5 @@ int main(int argc, char** argv) {
         return std::make_unique<ReconstructionApp>(context.bus, settings, context.instance);
       });
 }
+
+}  // namespace arcstart::reconstruction

@@ -1,9 +1,9 @@
 // arcstart-calibration: the cell's calibration, published for all.
 #include "services/calibration/calibration_app.hpp"
 
-int main(int argc, char** argv) {
-  using namespace arcstart;
-  using namespace arcstart::calibration;
+namespace arcstart::calibration {
+
+int run(int argc, char** argv) {
   return run_service(
       argc, argv, {"calibration", "publishes the cell's calibration, and makes one from a plate"},
       [](ServiceContext& context) -> std::unique_ptr<App> {
@@ -12,3 +12,5 @@ int main(int argc, char** argv) {
                                                 context.run_id);
       });
 }
+
+}  // namespace arcstart::calibration
