@@ -59,6 +59,8 @@ Option& Option::excludes(const std::vector<std::string>& names) {
 
 Command::Command(CLI::App& parent, const std::string& name, const std::string& purpose)
     : app_(parent.add_subcommand(name, purpose)) {}
+Command::Command(Command& parent, const std::string& name, const std::string& purpose)
+    : Command(*parent.app_, name, purpose) {}
 
 Option Command::option(const std::string& name, std::string& value, const std::string& purpose) {
   return Option(*app_->add_option(name, value, purpose));
@@ -84,6 +86,7 @@ Option Command::flag(const std::string& name, bool& value, const std::string& pu
   return Option(*app_->add_flag(name, value, purpose));
 }
 void Command::footer(const std::string& text) { app_->footer(text); }
+void Command::require_command() { app_->require_subcommand(1); }
 void Command::run(const std::function<void()>& work) { app_->callback(work); }
 
 void Command::refuse(const std::string& option, const std::string& why) {
@@ -94,11 +97,13 @@ Program::Program(const std::string& purpose) : Command(*new CLI::App(purpose)), 
 Program::~Program() = default;
 
 void Program::version(const std::string& version) { app_->set_version_flag("--version", version); }
-void Program::require_command() { app_->require_subcommand(1); }
 
 std::string Program::command() const {
-  const auto commands = app_->get_subcommands();
-  return commands.empty() ? "" : commands.front()->get_name();
+  std::string typed;
+  for (auto commands = app_->get_subcommands(); !commands.empty();
+       commands = commands.front()->get_subcommands())
+    typed += (typed.empty() ? "" : " ") + commands.front()->get_name();
+  return typed;
 }
 
 std::optional<int> Program::parse(int argc, char** argv) {

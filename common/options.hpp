@@ -45,6 +45,7 @@ class Command {
  public:
   explicit Command(CLI::App& app) : app_(&app) {}
   Command(CLI::App& parent, const std::string& name, const std::string& purpose);  // a subcommand
+  Command(Command& parent, const std::string& name, const std::string& purpose);   // one of those
 
   // name: "--cell", "-o,--output", or without hyphens for one that is known by its place.
   Option option(const std::string& name, std::string& value, const std::string& purpose);
@@ -56,6 +57,7 @@ class Command {
   Option option(const std::string& name, std::vector<double>& value, const std::string& purpose);
   Option flag(const std::string& name, bool& value, const std::string& purpose);
   void footer(const std::string& text);
+  void require_command();                       // one of its subcommands must be given
   void run(const std::function<void()>& work);  // when all is read
 
   // In run(): the value of this option cannot be. Throws what the program takes for bad input.
@@ -75,8 +77,7 @@ class Program : public Command {
 
   CLI::App& app() { return *app_; }  // for its subcommands
   void version(const std::string& version);
-  void require_command();
-  std::string command() const;  // that was typed; empty where there is none
+  std::string command() const;  // that was typed, "import scan"; empty where there is none
 
   // The code to exit with, 0 or 2, where --help, --version or a mistake ends the program here.
   std::optional<int> parse(int argc, char** argv);

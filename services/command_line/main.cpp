@@ -11,6 +11,7 @@
 #include "services/command_line/commands/check_command.hpp"
 #include "services/command_line/commands/extract_command.hpp"
 #include "services/command_line/commands/find_seam_command.hpp"
+#include "services/command_line/commands/import_command.hpp"
 #include "services/command_line/commands/monitor_command.hpp"
 #include "services/command_line/commands/replay_command.hpp"
 #include "services/command_line/commands/scan_command.hpp"
@@ -39,6 +40,7 @@ int main(int argc, char** argv) {
   int exit_code = 0;
   add_scan_command(program.app(), exit_code);
   add_replay_command(program.app(), exit_code);
+  add_import_command(program.app(), exit_code);
   add_extract_command(program.app(), exit_code);
   add_find_seam_command(program.app(), exit_code);
   add_calibrate_command(program.app(), exit_code);

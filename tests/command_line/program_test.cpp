@@ -47,12 +47,13 @@ TEST_CASE("arcstart and each subcommand tell all of themselves") {
   const Outcome all = run(folder, "--help");
   CHECK(all.code == 0);
   for (const std::string command :
-       {"scan", "replay", "extract", "find-seam", "calibrate", "monitor"}) {
+       {"scan", "replay", "import", "extract", "find-seam", "calibrate", "monitor"}) {
     CHECK_THAT(all.out, Contains(command));
     const Outcome help = run(folder, command + " --help");
     CHECK(help.code == 0);
     CHECK_THAT(help.out, Contains("Exit: 0"));
   }
+  CHECK_THAT(run(folder, "import scan --help").out, Contains("Exit: 0"));
   CHECK(run(folder, "").code == 2);
   CHECK(run(folder, "weld").code == 2);
   CHECK(run(folder, "scan").code == 2);

@@ -28,7 +28,9 @@ std::vector<std::uint8_t> read_bytes(const std::string& path) {
   return bytes;
 }
 
-cv::Mat decode(const std::string& path) {
+}  // namespace
+
+cv::Mat read_image(const std::string& path) {
   const std::vector<std::uint8_t> bytes = read_bytes(path);
   const auto refuse_size = [&](std::uint64_t width, std::uint64_t height) {
     if (width * height > kMostPixels)
@@ -54,14 +56,16 @@ cv::Mat decode(const std::string& path) {
   return image;
 }
 
-bool is_grey(const cv::Mat& blue, const cv::Mat& green, const cv::Mat& red) {
-  return cv::norm(blue, green, cv::NORM_INF) == 0 && cv::norm(blue, red, cv::NORM_INF) == 0;
+bool has_colour(const cv::Mat& image) {
+  if (image.channels() < 3) return false;
+  std::vector<cv::Mat> channels;
+  cv::split(image, channels);
+  return cv::norm(channels[0], channels[1], cv::NORM_INF) != 0 ||
+         cv::norm(channels[0], channels[2], cv::NORM_INF) != 0;
 }
 
-}  // namespace
-
 cv::Mat read_grey_image(const std::string& path, const std::string& channel) {
-  const cv::Mat image = decode(path);
+  const cv::Mat image = read_image(path);
   if (image.channels() == 1) return image;
   std::vector<cv::Mat> channels;  // blue, green, red, perhaps opacity
   cv::split(image, channels);
@@ -69,7 +73,7 @@ cv::Mat read_grey_image(const std::string& path, const std::string& channel) {
   if (channel == "b") return channels[0];
   if (channel == "g") return channels[1];
   if (channel == "r") return channels[2];
-  if (!is_grey(channels[0], channels[1], channels[2]))
+  if (has_colour(image))
     throw ImageFileError(
         fmt::format("{}: a colour image; name the laser's channel with --channel r, g or b", path));
   return channels[0];

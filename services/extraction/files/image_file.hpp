@@ -14,10 +14,17 @@ class ImageFileError : public InputError {
   using InputError::InputError;
 };
 
+// An image file as it is stored: 8 bit, one channel or blue, green, red and perhaps opacity. Throws
+// ImageFileError where the file cannot be read, is damaged, is not 8 bit or is larger than 100
+// million pixels.
+cv::Mat read_image(const std::string& path);
+
+// Three or four channels of which the first three differ.
+bool has_colour(const cv::Mat& image);
+
 // 8-bit grey values of an image file. channel: "r", "g" or "b" of a colour image; empty for a grey
-// one, which may be stored as colour with equal channels. Throws ImageFileError where the file
-// cannot be read, is not 8 bit, is larger than 100 million pixels, or has true colour and no
-// channel is named.
+// one, which may be stored as colour with equal channels. Throws ImageFileError as read_image does,
+// and where it has true colour and no channel is named.
 cv::Mat read_grey_image(const std::string& path, const std::string& channel = "");
 
 }  // namespace arcstart::extraction
