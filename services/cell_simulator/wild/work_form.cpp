@@ -33,8 +33,8 @@ Vector3d bent(const WildWork& work, const Vector3d& p) {
 
 TriangleMesh bent(const WildWork& work, const TriangleMesh& mesh) {
   if (work.bow_mm == 0) return mesh;
-  constexpr double chord_error_mm = 0.009;
-  TriangleMesh result = sliced(mesh, std::sqrt(8 * chord_error_mm * std::abs(radius_of(work))));
+  constexpr double finest_chord_mm = 0.009;
+  TriangleMesh result = sliced(mesh, std::sqrt(8 * finest_chord_mm * std::abs(radius_of(work))));
   for (Vector3d& corner : result.corners) corner = bent(work, corner);
   return result;
 }

@@ -8,6 +8,7 @@
 #include "common/bus/value_checks.hpp"
 #include "common/options.hpp"
 #include "services/calibration/files/calibration_file.hpp"
+#include "services/command_line/commands/say.hpp"
 #include "services/command_line/imports/imported_recording.hpp"
 #include "services/command_line/output/terminal.hpp"
 
@@ -19,8 +20,6 @@ struct Options {
   PoseConvention convention;
   std::string job, part, channel;
 };
-
-void say(const std::string& text) { std::cerr << "import scan: " << text << "\n"; }
 
 // The cell's settings, or all defaults; with the joint given, if one is.
 Configuration settings_of(const Options& options) {
@@ -55,10 +54,12 @@ int run(const Options& options) {
       [&](double share) { progress.show(fmt::format("import scan: {:.0f} %", 100 * share)); },
       notes);
   progress.clear();
-  for (const std::string& note : notes) say(note);
+  for (const std::string& note : notes) say("import scan", note);
   if (!scans.background)
-    say("no background: replay refuses the scan without one (--background here or there)");
-  say(fmt::format("{}: {}{}", options.output, words(scans.work),
+    say("import scan",
+        "no background: replay refuses the scan without one (--background here or there)");
+  say("import scan",
+      fmt::format("{}: {}{}", options.output, words(scans.work),
                   scans.background ? "; background: " + words(*scans.background) : ""));
   return 0;
 }
