@@ -24,6 +24,12 @@ struct RefereeConstants {
   double place_gap = 3;
   // Of the stripes at a seam between parallel plates, those that leave the plates there - bench.
   double edges_shown = 0.3;
+  // Of the stripes at a seam: then each must leave the plate there - bench.
+  double nearly_all = 0.7;
+  // Stripes by which an edge's course is known - bench.
+  int course_stripes = 6;
+  // mm; the edges lie off the seam across by so much, at most, before it counts - bench.
+  double off_beside = 0.2;
   // mm; what is narrower is no plate - an end face of sheet.
   double narrowest = 4.5;
   // mm; from where a plate is claimed to begin, it is found no farther off - radius of a section.

@@ -26,46 +26,17 @@ Reason of_shape(const PlateShape& shape, const PlateView& view) {
   return {};
 }
 
-// Where a stripe leaves a plate toward the seam, away from it; nothing where it runs on across.
-std::optional<double> edge_in(const PlateView& view, const StripeOnPlate& stripe) {
-  const double from = view.begin + kReferee.beside_seam;
-  std::optional<double> last;
-  bool ends = false;
-  for (auto place = stripe.places.rbegin(); place != stripe.places.rend(); ++place) {
-    if (!last && place->away > from + kReferee.near_seam) continue;
-    if (place->look != Look::kOn || (last && *last - place->away > kReferee.place_gap)) {
-      if (last) return last;
-      continue;
-    }
-    if (ends && place->ends) return last;  // from one segment to the next
-    last = place->away, ends = place->ends && place->away < from;
-  }
-  return ends ? last : std::nullopt;
-}
-
 bool within(const StripeOnPlate& stripe, double from, double to) {
   return stripe.crossing > from && stripe.crossing < to;
 }
 
 // Plates side by side end at the seam: else there is none.
-Reason at_edge(const PlateView& view, double length) {
-  int stripes = 0, leaving = 0;
-  for (const StripeOnPlate& stripe : view.stripes) {
-    if (!within(stripe, 0, length) || at_seam(view, stripe) != AtSeam::kOn) continue;
-    ++stripes;
-    const auto edge = edge_in(view, stripe);
-    leaving += edge && std::abs(*edge - view.plate.inset) < kReferee.edge_off;
-  }
-  if (stripes >= kReferee.shown_stripes && leaving < kReferee.edges_shown * stripes)
-    return {Code::kNoEdgeAtSeam, static_cast<double>(leaving), static_cast<double>(stripes)};
+Reason at_edge(const SeamEdges& edges) {
+  if (edges.stripes >= kReferee.shown_stripes &&
+      edges.leaving < kReferee.edges_shown * edges.stripes)
+    return {Code::kNoEdgeAtSeam, static_cast<double>(edges.leaving),
+            static_cast<double>(edges.stripes)};
   return {};
-}
-
-// The plates that end at the seam: of a lap the upper one.
-bool ends_at_seam(const SeamResult& seam, int plate) {
-  if (seam.joint_type == "butt" || seam.joint_type == "v") return true;
-  return seam.joint_type == "lap" &&
-         seam.faces[plate].plane.signed_distance(seam.start) < -kReferee.off;
 }
 
 // Stripes at the seam, between its claimed ends: both plates there, one of them not.
@@ -90,7 +61,8 @@ Reason along(const std::array<PlateView, 2>& views, double length, double spacin
 }  // namespace
 
 Reason contradiction_of(const SeamResult& seam, const std::array<PlateView, 2>& views,
-                        const std::array<PlateShape, 2>& shapes, double spacing) {
+                        const std::array<PlateShape, 2>& shapes,
+                        const std::array<std::optional<SeamEdges>, 2>& edges, double spacing) {
   const double length = (seam.end - seam.start).norm();
   if (views[0].stripes.size() < 2 || views[1].stripes.size() < 2) return {Code::kSeamNotCrossed};
   for (int j = 0; j < 2; ++j) {
@@ -101,8 +73,8 @@ Reason contradiction_of(const SeamResult& seam, const std::array<PlateView, 2>& 
     if (const Reason reason = of_shape(shapes[j], views[j])) return reason;
   }
   for (int j = 0; j < 2; ++j)
-    if (ends_at_seam(seam, j))
-      if (const Reason reason = at_edge(views[j], length)) return reason;
+    if (edges[j])
+      if (const Reason reason = at_edge(*edges[j])) return reason;
   return along(views, length, spacing);
 }
 

@@ -47,13 +47,17 @@ Examination examine(const ScanCloud& cloud, const SeamResult& seam) {
     views[j] = view_of(cloud, lights, seam, j);
     examination.shapes[j] = shape_of(views[j], length);
     set_looks(examination.shapes[j], length, views[j]);
+    if (end_at_seam(seam)[j]) {
+      examination.edges[j] = edges_of(views[j], length);
+      leave_out_across(*examination.edges[j], views[j]);
+    }
   }
   examination.stripes =
       static_cast<int>(std::max(views[0].stripes.size(), views[1].stripes.size()));
   examination.spacing = spacing_of(views[0].stripes.size() > 1 ? views[0] : views[1]);
   examination.explained = explained_by(views, length);
   examination.contradiction =
-      contradiction_of(seam, views, examination.shapes, examination.spacing);
+      contradiction_of(seam, views, examination.shapes, examination.edges, examination.spacing);
   for (const SeamSide side : {SeamSide::kBegin, SeamSide::kEnd}) {
     const bool start = side == SeamSide::kBegin;
     const double end = start ? 0 : length;

@@ -27,6 +27,7 @@ class EndRuling {
   void rule() {
     // Between crossing or parallel plates alike: off what is claimed across the seam.
     for (int j = 0; j < 2; ++j) widen_across(j);
+    widen_beside();
     if (visibility() == EndVisibility::kNotDetermined) return without_deviation();
     if (!bounds_.anchored) return undetermined(Code::kStartNotShown, Code::kEndNotShown, 0);
     const double allowed = std::max(kReferee.allowed, kReferee.deviations * claimed_deviation());
@@ -92,6 +93,23 @@ class EndRuling {
     const double off = shape.height_at_seam(start_ ? 0 : 2 * shape.half);
     if (std::abs(off) < kReferee.off) return;
     covariance() += off * off * seam_.normals[j] * seam_.normals[j].transpose();
+  }
+
+  // Between plates side by side the seam lies in the middle of their edges, or at the upper one's.
+  void widen_beside() {
+    double off = 0, plates = 0;
+    Eigen::Vector3d across = Eigen::Vector3d::Zero();
+    for (int j = 0; j < 2; ++j) {
+      if (!examination_.edges[j] || !examination_.edges[j]->known) continue;
+      const SeamEdges& edges = *examination_.edges[j];
+      off += (plates == 0 ? 1 : -1) * (start_ ? edges.at_start : edges.at_end);
+      if (plates == 0) across = seam_.faces[j].away;
+      ++plates;
+    }
+    if (plates == 0 || !seam_.accuracy) return;
+    off /= plates;
+    if (std::abs(off) > kReferee.off_beside)
+      covariance() += off * off * across * across.transpose();
   }
 
   const Examination& examination_;

@@ -1,0 +1,96 @@
+#include "services/seam_finding/referee/seam_edges.hpp"
+
+#include <cmath>
+#include <vector>
+
+#include "services/seam_finding/referee/constants.hpp"
+#include "services/seam_finding/referee/end_bounds.hpp"
+
+namespace arcstart::seam_finding {
+namespace {
+
+struct EdgePlace {
+  double along, off;  // mm
+};
+
+// Least squares, then once more without what lies off; false with too few.
+bool fit_course(std::vector<EdgePlace> places, double length, SeamEdges& edges) {
+  for (int pass = 0; pass < 2; ++pass) {
+    if (static_cast<int>(places.size()) < kReferee.course_stripes) return false;
+    double n = 0, x = 0, y = 0, xx = 0, xy = 0;
+    for (const EdgePlace& place : places) {
+      n += 1, x += place.along, y += place.off;
+      xx += place.along * place.along, xy += place.along * place.off;
+    }
+    const double spread = n * xx - x * x;
+    if (!(spread > 1)) return false;
+    const double slope = (n * xy - x * y) / spread;
+    edges.at_start = (y - slope * x) / n;
+    edges.at_end = edges.at_start + slope * length;
+    std::vector<EdgePlace> kept;
+    for (const EdgePlace& place : places)
+      if (std::abs(place.off - edges.at_start - slope * place.along) < kReferee.edge_off / 2)
+        kept.push_back(place);
+    places = std::move(kept);
+  }
+  return true;
+}
+
+// On the plate from beside the seam to the other plate's side.
+bool runs_across(const PlateView& view, const StripeOnPlate& stripe) {
+  return at_seam(view, stripe) == AtSeam::kOn && !edge_in(view, stripe);
+}
+
+}  // namespace
+
+std::array<bool, 2> end_at_seam(const SeamResult& seam) {
+  if (seam.joint_type == "butt" || seam.joint_type == "v") return {true, true};
+  if (seam.joint_type != "lap") return {false, false};
+  const auto over = [&](int plate) {
+    return seam.faces[plate].plane.signed_distance(seam.start) < -kReferee.off;
+  };
+  return {over(0), over(1)};
+}
+
+std::optional<double> edge_in(const PlateView& view, const StripeOnPlate& stripe) {
+  const double from = view.begin + kReferee.beside_seam;
+  std::optional<double> last;
+  bool ends = false;
+  for (auto place = stripe.places.rbegin(); place != stripe.places.rend(); ++place) {
+    if (!last && place->away > from + kReferee.near_seam) continue;
+    if (place->look != Look::kOn || (last && *last - place->away > kReferee.place_gap)) {
+      if (last) return last;
+      continue;
+    }
+    if (ends && place->ends) return last;  // from one segment to the next
+    last = place->away, ends = place->ends && place->away < from;
+  }
+  return ends ? last : std::nullopt;
+}
+
+SeamEdges edges_of(const PlateView& view, double length) {
+  SeamEdges edges;
+  std::vector<EdgePlace> places;
+  for (const StripeOnPlate& stripe : view.stripes) {
+    if (stripe.crossing < 0 || stripe.crossing > length) continue;
+    if (at_seam(view, stripe) != AtSeam::kOn) continue;
+    ++edges.stripes;
+    const auto edge = edge_in(view, stripe);
+    if (!edge) continue;
+    const double off = *edge - view.plate.inset;
+    edges.leaving += std::abs(off) < kReferee.edge_off;
+    if (std::abs(off) < 2 * kReferee.edge_off) places.push_back({stripe.crossing, off});
+  }
+  edges.known = fit_course(std::move(places), length, edges);
+  return edges;
+}
+
+void leave_out_across(const SeamEdges& edges, PlateView& view) {
+  if (edges.stripes < kReferee.shown_stripes || edges.leaving < kReferee.nearly_all * edges.stripes)
+    return;
+  for (StripeOnPlate& stripe : view.stripes)
+    if (runs_across(view, stripe))
+      for (Place& place : stripe.places) place.look = Look::kThrough;
+}
+
+}  // namespace arcstart::seam_finding
