@@ -10,6 +10,7 @@
 #include "services/seam_finding/model/seam.hpp"
 #include "services/seam_finding/referee/end_bounds.hpp"
 #include "services/seam_finding/referee/plate_shape.hpp"
+#include "services/seam_finding/referee/plate_view.hpp"
 
 namespace arcstart::seam_finding {
 
@@ -19,6 +20,7 @@ struct Examination {
   Reason contradiction;   // why the seam as a whole is not as claimed; none where it is
   std::array<EndBounds, 2> ends;     // start and end; outward from the claim
   std::array<PlateShape, 2> shapes;  // of the plates
+  std::array<PlateView, 2> views;    // what the stripes show of them
   double spacing = 0;                // of the stripes along the seam; mm
 };
 
