@@ -44,6 +44,8 @@ struct RefereeConstants {
 
   // Tilt against the plane claimed, at most; rad - 0.6 of what must be noticed, 1 degree.
   double turned = 0.0105;
+  // Of a plate's direction away from the seam, its part out of the plane, at most; 1 - rounding.
+  double out_of_plane = 0.01;
   // mm; a plate is not that of a round thing whose radius is less - the largest hand tool.
   double round = 60;
   // mm; a strip narrower than this may be that of a round thing - bench.

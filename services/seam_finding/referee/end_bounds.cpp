@@ -81,7 +81,8 @@ class StripeEvidence {
       if (place.away < from_) continue;
       if (place.look == Look::kBefore)
         nothing_before_ = false;  // its shadow falls anywhere
-      else if (place.away <= to_)
+      else if (place.away <= to_ &&
+               (place.look == Look::kOn || place.away > begin + kReferee.beside_seam))
         known_.push_back(&place);
     }
   }

@@ -39,7 +39,8 @@ double width_of(const PlateView& view, double length, double tolerance) {
     double reached = -1;
     int others = 0;  // in a row
     for (const Place& place : stripe.places) {
-      if (place.away < view.begin || place.along < 0 || place.along > length) continue;
+      if (place.away < view.begin + kReferee.beside_seam) continue;
+      if (place.along < 0 || place.along > length) continue;
       others = place.look == Look::kOn ? 0 : others + 1;
       if (others == kReferee.others_in_a_row && reached >= 0) break;
       if (place.look == Look::kOn) reached = place.away;

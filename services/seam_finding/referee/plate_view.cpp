@@ -80,7 +80,8 @@ void add_places(const ScanCloud& cloud, const Frame& frame, const StripeLight& l
             [](const Place& a, const Place& b) { return a.away < b.away; });
 }
 
-// Of most stripes at the middle of the seam: the first of two places in a row on the claimed plane.
+// Of half the stripes at the middle of the seam that nothing covers: the first of two places in a
+// row on the claimed plane.
 double begin_of(const PlateView& view, double length) {
   std::vector<double> begins;
   for (const StripeOnPlate& stripe : view.stripes) {
@@ -88,6 +89,7 @@ double begin_of(const PlateView& view, double length) {
     const Place* last = nullptr;
     for (const Place& place : stripe.places) {
       if (place.away < view.plate.inset) continue;
+      if (place.height > kReferee.bend) break;  // covered
       const bool on = std::abs(place.height) < kReferee.bend;
       if (on && last) {
         begins.push_back(last->away);
@@ -97,12 +99,12 @@ double begin_of(const PlateView& view, double length) {
     }
   }
   if (begins.empty()) return view.plate.inset;
-  const auto most = begins.begin() + static_cast<std::ptrdiff_t>(begins.size() * 3 / 4);
-  std::nth_element(begins.begin(), most, begins.end());
+  const auto half = begins.begin() + static_cast<std::ptrdiff_t>(begins.size() / 2);
+  std::nth_element(begins.begin(), half, begins.end());
   // What is nearer than the places stand to each other is the seam itself.
-  return *most < view.plate.inset + kReferee.beside_seam
+  return *half < view.plate.inset + kReferee.step
              ? view.plate.inset
-             : std::min(*most, view.plate.inset + kReferee.farthest_begin);
+             : std::min(*half, view.plate.inset + kReferee.farthest_begin);
 }
 
 }  // namespace
