@@ -110,8 +110,9 @@ void add_replay_command(CLI::App& parent, int& exit_code) {
       "recording's STATUS states");
   command
       .option("--pictures", options->pictures,
-              "Folder for what a person can look at of the last workpiece scan: cloud.pcd, "
-              "cloud.ply, cloud.png and stripe.png")
+              "Folder for what a person can look at: of the last workpiece scan cloud.pcd, "
+              "cloud.ply, cloud.png and stripe.png, and of each whose stripes contradict the seam "
+              "contradiction_SCANID.png: what they must show of its plates, and what they do")
       .existing_folder();
   command.option("--seams", options->seams,
                  "File for the encoded seam_t of every scan answered, in order, to compare two "

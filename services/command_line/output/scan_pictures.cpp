@@ -1,11 +1,14 @@
 #include "services/command_line/output/scan_pictures.hpp"
 
+#include <fmt/core.h>
+
 #include <opencv2/imgcodecs.hpp>
 #include <set>
 #include <stdexcept>
 
 #include "services/command_line/clouds/cloud_picture.hpp"
 #include "services/command_line/clouds/point_cloud_file.hpp"
+#include "services/command_line/output/contradiction_picture.hpp"
 #include "services/extraction/files/stripe_picture.hpp"
 #include "services/seam_finding/answer/wording.hpp"
 #include "services/seam_finding/find_seam.hpp"
@@ -41,24 +44,43 @@ ScanPictures::ScanPictures(const std::string& folder,
     : folder_(folder), settings_(settings) {}
 
 void ScanPictures::listen(Bus& bus, const std::string& sensor) {
-  const auto collect = [this] {
-    while (auto scan = collector_.next())
-      (scan->state.kind == scan_t::BACKGROUND ? background_ : workpiece_) = std::move(*scan);
-  };
-  bus.subscribe<scan_t>(sensor + "_SCAN", Queue::measurements(),
-                        [this, collect](const scan_t& state) {
-                          collector_.take(state);
-                          collect();
-                        });
+  bus.subscribe<scan_t>(sensor + "_SCAN", Queue::measurements(), [this](const scan_t& state) {
+    collector_.take(state);
+    collect();
+  });
   bus.subscribe<profile_t>(sensor + "_PROFILE", Queue::measurements(),
-                           [this, collect](const profile_t& profile) {
+                           [this](const profile_t& profile) {
                              collector_.take(profile);
                              collect();
                            });
+  bus.subscribe<seam_t>(sensor + "_SEAM", Queue::measurements(), [this](const seam_t& answer) {
+    answer_ = answer;
+    keep_contradicted();
+  });
   bus.subscribe<image_t>(sensor + "_IMAGE", Queue::images(),
                          [this](const image_t& image) { image_ = image; });
   bus.subscribe<stripe_t>(sensor + "_STRIPE", Queue::measurements(),
                           [this](const stripe_t& stripe) { take(stripe); });
+}
+
+void ScanPictures::collect() {
+  while (auto scan = collector_.next()) {
+    const auto kept = std::make_shared<const seam_finding::CollectedScan>(std::move(*scan));
+    if (kept->state.kind != scan_t::BACKGROUND)
+      workpiece_ = kept;
+    else if (seam_finding::background_error(*kept).empty())
+      backgrounds_[kept->state.scan_id] = kept;
+    keep_contradicted();
+  }
+}
+
+// Once its scan and its answer are there, whichever comes first.
+void ScanPictures::keep_contradicted() {
+  if (!workpiece_ || workpiece_->state.scan_id != answer_.scan_id) return;
+  if (!may_be_contradicted(answer_)) return;
+  if (!contradicted_.empty() && contradicted_.back().work == workpiece_) return;
+  const auto background = backgrounds_.find(answer_.background_scan_id);
+  if (background != backgrounds_.end()) contradicted_.push_back({workpiece_, background->second});
 }
 
 void ScanPictures::take(const stripe_t& stripe) {
@@ -72,21 +94,48 @@ void ScanPictures::take(const stripe_t& stripe) {
 std::string ScanPictures::write() const {
   if (!workpiece_) throw std::runtime_error("no workpiece scan to draw");
   write_cloud();
-  if (richest_.count == 0)
-    return "cloud.pcd, cloud.ply and cloud.png; no stripe.png, the recording holds no images";
-  write_stripe();
-  return "cloud.pcd, cloud.ply, cloud.png and stripe.png";
+  const int contradictions = write_contradictions();
+  const bool images = richest_.count > 0;
+  if (images) write_stripe();
+  std::string written = "cloud.pcd, cloud.ply, cloud.png";
+  if (images) written += ", stripe.png";
+  if (contradictions > 0)
+    written += fmt::format(", contradiction_SCANID.png of {} scans", contradictions);
+  return images ? written : written + "; no stripe.png, the recording holds no images";
+}
+
+// As it was answered, but for what the referee took away: that is in no message.
+ExaminedSeam ScanPictures::examined_again(const seam_finding::CollectedScan& work,
+                                          Scan background) const {
+  const seam_finding::ScanCloud cloud = seam_finding::cloud_of(work);
+  const seam_finding::NoBackground nothing;
+  std::optional<seam_finding::StoredBackground> stored;
+  if (background) stored.emplace(*background, settings_);
+  const seam_finding::SeamResult found = seam_finding::find_seam(
+      cloud, stored ? stored->model() : static_cast<const seam_finding::Background&>(nothing),
+      settings_, static_cast<std::uint64_t>(work.state.scan_id));
+  // The paper's rules have no referee.
+  if (settings_.start_rule != seam_finding::StartRule::kEdges) return {found, found, {}, {}};
+  return examined(cloud, found);
+}
+
+int ScanPictures::write_contradictions() const {
+  int count = 0;
+  for (const Contradicted& scan : contradicted_) {
+    const ExaminedSeam seam = examined_again(*scan.work, scan.background);
+    if (seam.objections.empty()) continue;
+    ContradictionPicture(seam).write(
+        fmt::format("{}/contradiction_{}.png", folder_, scan.work->state.scan_id));
+    ++count;
+  }
+  return count;
 }
 
 void ScanPictures::write_cloud() const {
   const seam_finding::ScanCloud cloud = seam_finding::cloud_of(*workpiece_);
-  const seam_finding::NoBackground nothing;
-  std::optional<seam_finding::StoredBackground> stored;
-  if (background_ && seam_finding::background_error(*background_).empty())
-    stored.emplace(*background_, settings_);
-  const seam_finding::SeamResult result = seam_finding::find_seam(
-      cloud, stored ? stored->model() : static_cast<const seam_finding::Background&>(nothing),
-      settings_, static_cast<std::uint64_t>(workpiece_->state.scan_id));
+  const Scan background = backgrounds_.empty() ? nullptr : backgrounds_.rbegin()->second;
+  const ExaminedSeam seam = examined_again(*workpiece_, background);
+  const seam_finding::SeamResult& result = seam.found;
   std::vector<Colour> colours(cloud.points.size(), kYellow);
   for (const int i : result.background) colours[static_cast<std::size_t>(i)] = kGrey;
   for (const int i : result.plates[0]) colours[static_cast<std::size_t>(i)] = kBlue;
@@ -102,7 +151,7 @@ void ScanPictures::write_cloud() const {
     points.push_back(cloud.points[i]);
   }
   std::vector<Eigen::Vector3d> points = cloud.points;
-  if (result.verdict == seam_finding::SeamResult::Verdict::kFound) {
+  if (seam.ruled.verdict == seam_finding::SeamResult::Verdict::kFound) {
     picture.seam = {result.start, result.end};
     picture.title = "weld seam: " + result.joint_type;
     for (double along = 0; along < (result.end - result.start).norm(); along += kSeamStep) {
@@ -110,7 +159,9 @@ void ScanPictures::write_cloud() const {
       colours.push_back(kRed);
     }
   } else {
-    picture.title = "no seam: " + in_words(result.reason);
+    picture.title = "no seam: " + in_words(seam.ruled.reason);
+    if (result.verdict == seam_finding::SeamResult::Verdict::kFound)
+      picture.alternatives.emplace_back(result.start, result.end);  // refused by the referee
   }
   for (const auto& other : result.alternatives)
     picture.alternatives.emplace_back(other.start, other.end);

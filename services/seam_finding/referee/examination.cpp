@@ -5,7 +5,6 @@
 
 #include "services/seam_finding/referee/constants.hpp"
 #include "services/seam_finding/referee/contradictions.hpp"
-#include "services/seam_finding/referee/plate_view.hpp"
 #include "services/seam_finding/referee/stripe_light.hpp"
 
 namespace arcstart::seam_finding {
@@ -42,7 +41,7 @@ Examination examine(const ScanCloud& cloud, const SeamResult& seam) {
   const auto lights = light_of(cloud);
   if (lights.empty()) return examination;
   const double length = (seam.end - seam.start).norm();
-  std::array<PlateView, 2> views;
+  std::array<PlateView, 2>& views = examination.views;
   for (int j = 0; j < 2; ++j) {
     views[j] = view_of(cloud, lights, seam, j);
     examination.shapes[j] = shape_of(views[j], length);

@@ -11,6 +11,7 @@
 #include "services/seam_finding/model/seam.hpp"
 #include "services/seam_finding/referee/end_bounds.hpp"
 #include "services/seam_finding/referee/plate_shape.hpp"
+#include "services/seam_finding/referee/plate_view.hpp"
 #include "services/seam_finding/referee/seam_edges.hpp"
 
 namespace arcstart::seam_finding {
@@ -22,6 +23,7 @@ struct Examination {
   std::array<EndBounds, 2> ends;                  // start and end; outward from the claim
   std::array<PlateShape, 2> shapes;               // of the plates
   std::array<std::optional<SeamEdges>, 2> edges;  // of the plates that end at the seam
+  std::array<PlateView, 2> views;                 // what the stripes show of them
   double spacing = 0;                             // of the stripes along the seam; mm
 };
 

@@ -11,6 +11,7 @@
 #include "paths.hpp"
 #include "services/calibration/files/calibration_file.hpp"
 #include "services/command_line/imports/imported_recording.hpp"
+#include "services/command_line/output/scan_pictures.hpp"
 #include "services/command_line/recordings/replay.hpp"
 #include "tests/command_line/support/case_truth.hpp"
 #include "tests/command_line/support/scan_files.hpp"
@@ -21,11 +22,6 @@ using namespace arcstart::test;
 namespace fs = std::filesystem;
 
 namespace {
-
-// Whether answers are held against the truth. As long as seam_finding does not check its answer
-// against the stripes, it answers these four wrongly: then only that they are imported whole and
-// answered is asserted, and how far off they are is printed.
-constexpr bool kRefereeStands = false;
 
 // Never is an end `seen` and yet off by more than so many of its deviations and so many mm.
 constexpr double kMostDeviations = 3, kMostError = 1;  // 1, mm
@@ -44,6 +40,14 @@ std::string cases() {
   return (folder ? std::string(folder) : ARCSTART_SOURCE "/../shared/data") + "/cases";
 }
 
+// By the stripes: refused for what they show, or they show an end elsewhere.
+bool is_contradicted(const seam_t& seam) {
+  const bool refused =
+      seam.refusal >= seam_t::SEAM_NOT_SHOWN && seam.refusal <= seam_t::PLATE_IS_EDGE;
+  return refused || seam.start_second_weight > 0 || seam.end_second_weight > 0;
+}
+
+// Its picture, too, is there where it is to be.
 seam_t answer_to(const Case& asked, const CaseTruth& truth) {
   const Folder folder;
   // By way of the file, as a user has it.
@@ -61,12 +65,21 @@ seam_t answer_to(const Case& asked, const CaseTruth& truth) {
   CHECK(notes.size() == 1);  // all begin at the same time
   write_recording(
       folder / "scan.lcm", scans, [](double) {}, notes);
-  const ReplayResult result = replay_recordings({folder / "scan.lcm"});
+  ReplayOptions options;
+  ScanPictures pictures(folder.path(),
+                        scans.settings.read<seam_finding::SeamFindingSettings>("seam_finding"));
+  options.on_bus = [&](Bus& bus, const std::string& sensor) { pictures.listen(bus, sensor); };
+  const ReplayResult result = replay_recordings({folder / "scan.lcm"}, options);
   CHECK(result.warnings.empty());
   CHECK(result.unanswered.empty());
   REQUIRE(result.seams.size() == 2);
   CHECK(result.seams[0].seam.verdict == seam_t::BACKGROUND_STORED);
-  return result.seams[1].seam;
+  const seam_t& seam = result.seams[1].seam;
+  pictures.write();
+  const bool drawn = fs::exists(folder / fmt::format("contradiction_{}.png", seam.scan_id));
+  if (is_contradicted(seam)) CHECK(drawn);
+  if (seam.verdict == seam_t::FOUND && seam.usable == seam_t::USABLE) CHECK_FALSE(drawn);
+  return seam;
 }
 
 // Of an end of the seam, along it.
@@ -86,7 +99,7 @@ void hold_against(const Case& asked, const std::string& which, std::int8_t visib
                   const EndError& end) {
   fmt::print("{:<18} {:<5} off {:7.2f} mm, deviation {:.2f} mm, {}\n", asked.name, which, end.error,
              end.deviation, visibility == seam_t::SEEN ? "seen" : "not seen");
-  if (!kRefereeStands || visibility != seam_t::SEEN) return;
+  if (visibility != seam_t::SEEN) return;
   CHECK(end.error <= std::max(kMostDeviations * end.deviation, kMostError));
 }
 
@@ -112,8 +125,7 @@ TEST_CASE("scans of others' making are imported and answered") {
     }
     CHECK(seam.joint_type == asked.joint_asked);
     if (!asked.has_seam) {
-      fmt::print("{:<18} found, though there is no {}\n", asked.name, asked.joint_asked);
-      CHECK_FALSE(kRefereeStands);
+      FAIL_CHECK("found, though there is no " << asked.joint_asked);
       continue;
     }
     const Eigen::Vector3d along = (truth.b - truth.a).normalized();

@@ -33,7 +33,7 @@ TEST_CASE("each reason for which no seam is given has a code of its own in a ran
     CHECK(codes.insert(refusal).second);
   };
   for_each_code(Code::kPlatesDoNotTouch, Code::kPlateNarrow, take);
-  for_each_code(Code::kNoCloud, Code::kDrawsDisagree, take);
+  for_each_code(Code::kNoCloud, Code::kPlateRound, take);
 }
 
 TEST_CASE("a best pair that is no joint is refused by what it lacks") {
@@ -46,13 +46,13 @@ TEST_CASE("what only ranks an alternative, or is only remarked, refuses nothing"
   CHECK(refusal_code({}) == 0);
   for_each_code(Code::kScoreTooNear, Code::kFewDrawsAgree,
                 [](Code code) { CHECK(refusal_code({code}) == 0); });
-  for_each_code(Code::kMissingBeforeStart, Code::kGapLikeNone,
+  for_each_code(Code::kMissingBeforeStart, Code::kEndBounded,
                 [](Code code) { CHECK(refusal_code({code}) == 0); });
 }
 
 TEST_CASE("every code has words, and no two the same") {
   std::set<std::string> all;
-  for_each_code(Code::kPlatesDoNotTouch, Code::kGapLikeNone, [&](Code code) {
+  for_each_code(Code::kPlatesDoNotTouch, Code::kEndBounded, [&](Code code) {
     const std::string words = in_words(Reason{code, 1, 2, 3, Code::kNotConcave});
     INFO(static_cast<int>(code));
     CHECK_FALSE(words.empty());

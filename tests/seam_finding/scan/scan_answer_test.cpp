@@ -52,6 +52,23 @@ TEST_CASE("ends and deviations are told") {
   CHECK(seam.angle_deviation > 0);
 }
 
+TEST_CASE("that the answer was held against the stripes is told, and how well it stands") {
+  const AnsweredScans scans;
+  const seam_t seam = scans.answer();
+  CHECK(seam.stripes_checked > 20);
+  CHECK(seam.stripes_checked <= seam.stripes);
+  CHECK(seam.explained_share > 0.9);
+  CHECK(seam.explained_share <= 1);
+  CHECK(seam.worst_contradiction >= 0);
+  CHECK(seam.worst_contradiction < 0.5);
+  CHECK(seam.start_second_weight == 0);
+  CHECK(seam.end_second_weight == 0);
+
+  SeamFindingSettings paper;
+  paper.start_rule = StartRule::kStripe;
+  CHECK(scans.answer(paper).stripes_checked == -1);
+}
+
 TEST_CASE("course, stations and torch are told") {
   const seam_t seam = AnsweredScans().answer();
   CHECK(seam.polyline_count == 2);
