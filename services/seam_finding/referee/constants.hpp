@@ -23,7 +23,7 @@ struct RefereeConstants {
   // mm; between neighbouring places of a stripe on a plate, at most - M of 15 in steep sight.
   double place_gap = 3;
   // Of the stripes at a seam between parallel plates, those that leave the plates there - bench.
-  double edges_shown = 0.3;
+  double edges_shown = 0.2;
   // Of the stripes at a seam: then each must leave the plate there - bench.
   double nearly_all = 0.7;
   // Stripes by which an edge's course is known - bench.
@@ -42,8 +42,9 @@ struct RefereeConstants {
   double least_tolerance = 0.25, most_tolerance = 0.8;
   // mm; a plate's own bend and its waves from robot and calibration, at most - 1 in 100.
   double bend = 1.0;
-  // mm; of a plate away from where it begins, what its shape is taken from - bench.
-  double shape_width = 15;
+  // mm; of a plate away from where it begins, what its shape is taken from, and how wide: nearer,
+  // light from the other plate moves the stripe - bench.
+  double shape_from = 5, shape_width = 25;
 
   // Places of a stripe in a row that are not on a plate: it has ended there - bench.
   int others_in_a_row = 2;
@@ -78,8 +79,8 @@ struct RefereeConstants {
   // Share of a stripe's places on a plate that may be on the wrong side of its edge - bench.
   double misfit = 0.15;
 
-  // mm; an end is not off by less than it may be - half of what is wrong silently.
-  double allowed = 0.5;
+  // mm; an end is not off by less than it may be - a little less than what is wrong silently.
+  double allowed = 0.8;
   // mm; and is not contradicted by less - a little less than what is.
   double contradicted = 0.9;
   // Standard deviations of an end that it may be off.

@@ -21,7 +21,7 @@ Reason of_shape(const PlateShape& shape, const PlateView& view) {
   const bool round =
       -shape.curvature > 1 / kReferee.round && -shape.curvature > sure * shape.curvature_deviation;
   if (round && shape.width < kReferee.narrow) return {Code::kPlateRound, -1 / shape.curvature};
-  const double width = view.width - view.begin;
+  const double width = view.widest - view.begin;
   if (width < kReferee.narrowest) return {Code::kPlateTooNarrow, width};
   return {};
 }

@@ -32,25 +32,31 @@ void visit_places(const PlateView& view, double length, const Scale& scale, Visi
         visitor(place);
 }
 
-// Of most stripes between the ends: a quarter may be cut short by what lies before the plate.
-double width_of(const PlateView& view, double length, double tolerance) {
+// By stripes between the ends that nothing before the plate cuts short.
+void set_width(double length, double tolerance, PlateView& view) {
   std::vector<double> widths;
   for (const StripeOnPlate& stripe : view.stripes) {
     double reached = -1;
     int others = 0;  // in a row
+    bool cut_short = false;
     for (const Place& place : stripe.places) {
       if (place.away < view.begin + kReferee.beside_seam) continue;
       if (place.along < 0 || place.along > length) continue;
       others = place.look == Look::kOn ? 0 : others + 1;
+      cut_short = place.look == Look::kBefore;
       if (others == kReferee.others_in_a_row && reached >= 0) break;
       if (place.look == Look::kOn) reached = place.away;
     }
-    if (reached > 0) widths.push_back(reached);
+    if (reached > 0 && !cut_short) widths.push_back(reached);
   }
-  if (widths.empty()) return 0;
-  const auto quarter = widths.begin() + static_cast<std::ptrdiff_t>(widths.size() / 4);
-  std::nth_element(widths.begin(), quarter, widths.end());
-  return std::max(0.0, *quarter - 2 * tolerance);
+  if (widths.empty()) return;
+  const auto quantile = [&](std::size_t quarters) {
+    const auto at = widths.begin() + static_cast<std::ptrdiff_t>(quarters * widths.size() / 4);
+    std::nth_element(widths.begin(), at, widths.end());
+    return std::max(0.0, *at - 2 * tolerance);
+  };
+  view.width = quantile(1);
+  view.widest = quantile(3);
 }
 
 // risen: over the shape, of the plate in the stripe before; then in this one.
@@ -74,21 +80,36 @@ void set_looks(const PlateShape& shape, double begin, StripeOnPlate& stripe, dou
   risen += *middle;
 }
 
-}  // namespace
-
-double PlateShape::height_at_seam(double along) const {
-  const double x = along - middle, inside = std::clamp(x, -half, half);
-  return bend(0) + bend(1) * inside + bend(2) * inside * inside +
-         (bend(1) + 2 * bend(2) * inside) * (x - inside);
+// Between neighbours of a segment that look alike, what lies there looks so, too: the scan was
+// thinned out, or its image has few pixels.
+void fill_in(StripeOnPlate& stripe) {
+  std::vector<Place> places = stripe.places;
+  std::sort(places.begin(), places.end(),
+            [](const Place& a, const Place& b) { return a.point < b.point; });
+  const std::size_t seen = stripe.places.size();
+  for (std::size_t i = 1; i < places.size(); ++i) {
+    const Place &a = places[i - 1], &b = places[i];
+    if (a.segment != b.segment || a.look != b.look || a.look == Look::kBefore) continue;
+    const int steps = static_cast<int>(std::abs(b.away - a.away) / (2 * kReferee.step));
+    for (int step = 1; step < steps; ++step) {
+      const double share = static_cast<double>(step) / steps;
+      Place between = a;
+      between.along += share * (b.along - a.along);
+      between.away += share * (b.away - a.away);
+      between.height += share * (b.height - a.height);
+      between.ends = false;
+      stripe.places.push_back(between);
+    }
+  }
+  if (stripe.places.size() == seen) return;
+  std::sort(stripe.places.begin(), stripe.places.end(),
+            [](const Place& a, const Place& b) { return a.away < b.away; });
 }
 
-double PlateShape::height_at(double along, double away) const {
-  return height_at_seam(along) + tilt * away;
-}
-
-PlateShape shape_of(const PlateView& view, double length) {
+// From places so far away from where the plate begins, in a strip so wide; mm.
+PlateShape shape_within(const PlateView& view, double length, double from, double width) {
   PlateShape shape;
-  Scale scale{length / 2, length / 2, view.begin + kReferee.beside_seam, kReferee.shape_width};
+  Scale scale{length / 2, length / 2, view.begin + from, width};
   shape.tolerance = kReferee.most_tolerance;
   shape.middle = scale.middle, shape.half = scale.half;
   Terms solution = Terms::Zero();
@@ -139,6 +160,23 @@ PlateShape shape_of(const PlateView& view, double length) {
   return shape;
 }
 
+}  // namespace
+
+double PlateShape::height_at_seam(double along) const {
+  const double x = along - middle, inside = std::clamp(x, -half, half);
+  return bend(0) + bend(1) * inside + bend(2) * inside * inside +
+         (bend(1) + 2 * bend(2) * inside) * (x - inside);
+}
+
+double PlateShape::height_at(double along, double away) const {
+  return height_at_seam(along) + tilt * away;
+}
+
+PlateShape shape_of(const PlateView& view, double length) {
+  const PlateShape wide = shape_within(view, length, kReferee.shape_from, kReferee.shape_width);
+  return wide.known ? wide : shape_within(view, length, kReferee.beside_seam, kReferee.narrow);
+}
+
 void set_looks(const PlateShape& shape, double length, PlateView& view) {
   // From the seam's middle outward a bent plate is followed stripe by stripe: what shows it says
   // where the next must show it.
@@ -152,7 +190,8 @@ void set_looks(const PlateShape& shape, double length, PlateView& view) {
   risen = 0;
   for (auto stripe = middle; stripe != stripes.begin();)
     set_looks(shape, view.begin, *--stripe, risen);
-  view.width = width_of(view, length, shape.tolerance);
+  for (StripeOnPlate& stripe : stripes) fill_in(stripe);
+  set_width(length, shape.tolerance, view);
 }
 
 }  // namespace arcstart::seam_finding

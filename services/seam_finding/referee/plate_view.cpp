@@ -75,20 +75,22 @@ void add_places(const ScanCloud& cloud, const Frame& frame, const StripeLight& l
     if (!place || place->away < -kReferee.across_seam || place->away > kReferee.reach) continue;
     stripe.places.push_back(*place);
     stripe.places.back().ends = cloud.origins[i].segment_end;
+    stripe.places.back().point = i;
+    stripe.places.back().segment = cloud.origins[i].segment;
   }
   std::sort(stripe.places.begin(), stripe.places.end(),
             [](const Place& a, const Place& b) { return a.away < b.away; });
 }
 
-// Of half the stripes at the middle of the seam that nothing covers: the first of two places in a
-// row on the claimed plane.
+// Of half the stripes at the middle of the seam that nothing covers: the first of two
+// places in a row on the claimed plane.
 double begin_of(const PlateView& view, double length) {
   std::vector<double> begins;
   for (const StripeOnPlate& stripe : view.stripes) {
     if (stripe.crossing < length / 5 || stripe.crossing > length * 4 / 5) continue;
     const Place* last = nullptr;
     for (const Place& place : stripe.places) {
-      if (place.away < view.plate.inset) continue;
+      if (place.away < view.plate.inset - kReferee.step) continue;
       if (place.height > kReferee.bend) break;  // covered
       const bool on = std::abs(place.height) < kReferee.bend;
       if (on && last) {

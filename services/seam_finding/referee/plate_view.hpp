@@ -23,7 +23,8 @@ struct Place {
   double away = 0;    // from the seam, in the plate; mm
   double height = 0;  // of what was seen over the plate's plane, out of the metal; mm
   Look look = Look::kOn;
-  bool ends = false;  // a segment of the stripe ends with it
+  bool ends = false;             // a segment of the stripe ends with it
+  int point = -1, segment = -1;  // of the cloud, and of the stripe
 };
 
 struct StripeOnPlate {
@@ -40,7 +41,9 @@ struct PlateView {
   SeamPlate plate;
   double begin = 0;  // away from the seam, where the plate is found to begin: behind a gap, a
                      // radius or a bead; mm
-  double width = 0;  // away from the seam, as far as the plate was seen between the ends; mm
+  // Away from the seam, as far as the plate was seen between the ends: by three stripes of four,
+  // and by one of four; mm.
+  double width = 0, widest = 0;
   std::vector<StripeOnPlate> stripes;
 };
 
