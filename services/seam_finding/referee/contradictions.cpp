@@ -5,7 +5,6 @@
 #include <optional>
 
 #include "services/seam_finding/referee/constants.hpp"
-#include "services/seam_finding/referee/end_bounds.hpp"
 
 namespace arcstart::seam_finding {
 namespace {
@@ -48,7 +47,7 @@ Reason along(const std::array<PlateView, 2>& views, double length, double spacin
         std::find_if(views[1].stripes.begin(), views[1].stripes.end(),
                      [&](const StripeOnPlate& stripe) { return stripe.stripe == first.stripe; });
     if (second == views[1].stripes.end()) continue;
-    const AtSeam a = at_seam(views[0], first), b = at_seam(views[1], *second);
+    const AtSeam a = first.at_seam, b = second->at_seam;
     if (a == AtSeam::kOn && b == AtSeam::kOn) ++both;
     if (a == AtSeam::kOff || b == AtSeam::kOff) ++not_both;
   }

@@ -26,22 +26,6 @@ struct Evidence {
   bool crosses() const { return !on.empty() && !(off.empty() && dark.empty()); }
 };
 
-struct Count {
-  int on = 0, off = 0;
-};
-
-Count count_beside(const PlateView& view, const StripeOnPlate& stripe, int& before) {
-  const double from = view.begin + kReferee.beside_seam;
-  Count count;
-  for (const Place& place : stripe.places) {
-    if (place.away < from || place.away > from + kReferee.near_seam) continue;
-    if (place.look == Look::kOn) ++count.on;
-    if (place.look == Look::kThrough) ++count.off;
-    if (place.look == Look::kBefore) ++before;
-  }
-  return count;
-}
-
 using Known = std::vector<const Place*>;
 
 // The places by `away` are on before the split and off behind it, or the other way round.
@@ -178,15 +162,18 @@ double narrow(std::vector<Limit>& limits, Interval& result) {
   return best;
 }
 
+// The slopes from square to steepest, to both sides by turns: a square edge is found first, and
+// then slopes that contradict stripes need not be looked at.
 EdgeFit fit_edge(const std::vector<Evidence>& all, double play) {
   EdgeFit fit;
   for (const Evidence& evidence : all) fit.crossings += evidence.crosses();
   fit.contradicting = kInfinite;
   std::vector<Limit> limits;
   const int steps = static_cast<int>(std::lround(kReferee.steepest / kReferee.steepness_step));
-  for (int step = -steps; step <= steps; ++step) {
-    const double slope = step * kReferee.steepness_step;
+  for (int i = 0; i <= 2 * steps; ++i) {
+    const double slope = (i % 2 == 0 ? i / 2 : -(i + 1) / 2) * kReferee.steepness_step;
     limits.clear();
+    Interval foot{-kInfinite, kInfinite};
     for (const Evidence& evidence : all) {
       double least = -kInfinite, most = kInfinite, dark = kInfinite;
       for (const Mark& mark : evidence.on) least = std::max(least, mark.out - slope * mark.away);
@@ -195,9 +182,14 @@ EdgeFit fit_edge(const std::vector<Evidence>& all, double play) {
       if (std::isfinite(least)) limits.push_back({least - play, true, 1});
       if (std::isfinite(most)) limits.push_back({most + play, false, 1});
       if (std::isfinite(dark)) limits.push_back({dark + play, false, kReferee.dark_weight});
+      foot.least = std::max(foot.least, least - play);
+      foot.most = std::min({foot.most, most + play, dark + play});
     }
-    Interval foot{};
-    const double contradicting = narrow(limits, foot);
+    double contradicting = 0;
+    if (foot.least > foot.most) {
+      if (fit.contradicting < kSame) continue;
+      contradicting = narrow(limits, foot);
+    }
     if (contradicting < fit.contradicting - kSame) {
       fit.contradicting = contradicting;
       fit.foot = foot;
@@ -221,7 +213,7 @@ std::vector<const StripeOnPlate*> stripes_about(const PlateView& view, double ou
   int run = 0;
   for (std::size_t i = 0; i < inward.size(); ++i) {
     if (out(*inward[i]) > spacing / 2) continue;
-    const AtSeam seen = at_seam(view, *inward[i]);
+    const AtSeam seen = (*inward[i]).at_seam;
     if (seen == AtSeam::kOn && ++run == 2) {
       anchor = i;
       break;
@@ -235,8 +227,8 @@ std::vector<const StripeOnPlate*> stripes_about(const PlateView& view, double ou
   for (std::size_t i = deepest; i-- > 0;) {
     stripes.push_back(inward[i]);
     if (i >= anchor) continue;
-    const bool off = at_seam(view, *inward[i]) == AtSeam::kOff;
-    if (off && i + 1 < anchor && at_seam(view, *inward[i + 1]) == AtSeam::kOff) break;
+    const bool off = (*inward[i]).at_seam == AtSeam::kOff;
+    if (off && i + 1 < anchor && (*inward[i + 1]).at_seam == AtSeam::kOff) break;
   }
   return stripes;
 }
@@ -258,11 +250,11 @@ std::vector<bool> in_own_shadow(const PlateView& view,
                                 const std::vector<const StripeOnPlate*>& stripes, double spacing) {
   std::vector<bool> own(stripes.size(), false);
   for (std::size_t i = stripes.size(); i-- > 1;) {
-    if (at_seam(view, *stripes[i]) != AtSeam::kOff) continue;
+    if ((*stripes[i]).at_seam != AtSeam::kOff) continue;
     std::size_t inner = i;
-    while (inner > 0 && at_seam(view, *stripes[inner - 1]) == AtSeam::kUnknown) --inner;
+    while (inner > 0 && (*stripes[inner - 1]).at_seam == AtSeam::kUnknown) --inner;
     if (inner == 0) continue;
-    const AtSeam seen = at_seam(view, *stripes[inner - 1]);
+    const AtSeam seen = (*stripes[inner - 1]).at_seam;
     if (seen != AtSeam::kOn && seen != AtSeam::kPart) continue;
     const double dark =
         inner == i ? 0 : std::abs(stripes[inner]->crossing - stripes[i - 1]->crossing);
@@ -279,7 +271,7 @@ EdgeFit fit_within(const PlateView& view, const std::vector<const StripeOnPlate*
   bool dark_beyond = false;
   for (std::size_t i = stripes.size(); i-- > 0;) {
     // The shadow goes on along a slanting edge.
-    const bool slanting = dark_beyond && at_seam(view, *stripes[i]) == AtSeam::kOn;
+    const bool slanting = dark_beyond && (*stripes[i]).at_seam == AtSeam::kOn;
     const StripeEvidence stripe(*stripes[i], view.begin, width, end, outward);
     evidence.push_back(stripe.take(own_shadow[i] || slanting));
     dark_beyond = !evidence.back().dark.empty();
@@ -296,16 +288,6 @@ EdgeFit fit_within(const PlateView& view, const std::vector<const StripeOnPlate*
 }
 
 }  // namespace
-
-AtSeam at_seam(const PlateView& view, const StripeOnPlate& stripe) {
-  int before = 0;
-  const Count count = count_beside(view, stripe, before);
-  const int known = count.on + count.off;
-  if (known == 0) return before > 0 ? AtSeam::kHidden : AtSeam::kUnknown;
-  if (count.on >= kReferee.clear * known) return AtSeam::kOn;
-  if (count.off >= kReferee.clear * known) return AtSeam::kOff;
-  return AtSeam::kPart;
-}
 
 EndBounds bounds_of(const PlateView& view, SeamSide side, double end, double spacing) {
   EndBounds bounds;

@@ -9,16 +9,6 @@
 
 namespace arcstart::seam_finding {
 
-// What a stripe shows of a plate right beside the seam.
-enum class AtSeam : char {
-  kUnknown,  // nothing
-  kOn,
-  kOff,     // what lies behind is seen
-  kPart,    // the plate's edge crosses there
-  kHidden,  // something stands before it
-};
-AtSeam at_seam(const PlateView& view, const StripeOnPlate& stripe);
-
 // Counted outward from the claimed end; mm.
 struct EndBounds {
   // The plate is there beside the seam on a run of stripes within the claim: else nothing is known.

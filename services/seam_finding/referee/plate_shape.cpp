@@ -160,6 +160,32 @@ PlateShape shape_within(const PlateView& view, double length, double from, doubl
   return shape;
 }
 
+struct Count {
+  int on = 0, off = 0;
+};
+
+Count count_beside(const PlateView& view, const StripeOnPlate& stripe, int& before) {
+  const double from = view.begin + kReferee.beside_seam;
+  Count count;
+  for (const Place& place : stripe.places) {
+    if (place.away < from || place.away > from + kReferee.near_seam) continue;
+    if (place.look == Look::kOn) ++count.on;
+    if (place.look == Look::kThrough) ++count.off;
+    if (place.look == Look::kBefore) ++before;
+  }
+  return count;
+}
+
+AtSeam seen_at_seam(const PlateView& view, const StripeOnPlate& stripe) {
+  int before = 0;
+  const Count count = count_beside(view, stripe, before);
+  const int known = count.on + count.off;
+  if (known == 0) return before > 0 ? AtSeam::kHidden : AtSeam::kUnknown;
+  if (count.on >= kReferee.clear * known) return AtSeam::kOn;
+  if (count.off >= kReferee.clear * known) return AtSeam::kOff;
+  return AtSeam::kPart;
+}
+
 }  // namespace
 
 double PlateShape::height_at_seam(double along) const {
@@ -190,7 +216,10 @@ void set_looks(const PlateShape& shape, double length, PlateView& view) {
   risen = 0;
   for (auto stripe = middle; stripe != stripes.begin();)
     set_looks(shape, view.begin, *--stripe, risen);
-  for (StripeOnPlate& stripe : stripes) fill_in(stripe);
+  for (StripeOnPlate& stripe : stripes) {
+    fill_in(stripe);
+    stripe.at_seam = seen_at_seam(view, stripe);
+  }
   set_width(length, shape.tolerance, view);
 }
 

@@ -27,6 +27,15 @@ struct Place {
   int point = -1, segment = -1;  // of the cloud, and of the stripe
 };
 
+// What a stripe shows of a plate right beside the seam.
+enum class AtSeam : char {
+  kUnknown,  // nothing
+  kOn,
+  kOff,     // what lies behind is seen
+  kPart,    // the plate's edge crosses there
+  kHidden,  // something stands before it
+};
+
 struct StripeOnPlate {
   int stripe = 0;       // index
   double crossing = 0;  // along, where the stripe's light crosses the seam; mm
@@ -34,6 +43,7 @@ struct StripeOnPlate {
   double shadow = 0;  // along, that an edge hides of what lies 1 mm behind the plate; from light or
                       // camera, the longer
   std::vector<Place> places;  // by rising away
+  AtSeam at_seam = AtSeam::kUnknown;
 };
 
 // Of one plate: the stripes within reach of the seam, in order of their crossings.

@@ -4,7 +4,6 @@
 #include <vector>
 
 #include "services/seam_finding/referee/constants.hpp"
-#include "services/seam_finding/referee/end_bounds.hpp"
 
 namespace arcstart::seam_finding {
 namespace {
@@ -38,7 +37,7 @@ bool fit_course(std::vector<EdgePlace> places, double length, SeamEdges& edges) 
 
 // On the plate from beside the seam to the other plate's side.
 bool runs_across(const PlateView& view, const StripeOnPlate& stripe) {
-  return at_seam(view, stripe) == AtSeam::kOn && !edge_in(view, stripe);
+  return stripe.at_seam == AtSeam::kOn && !edge_in(view, stripe);
 }
 
 }  // namespace
@@ -73,7 +72,7 @@ SeamEdges edges_of(const PlateView& view, double length) {
   std::vector<EdgePlace> places;
   for (const StripeOnPlate& stripe : view.stripes) {
     if (stripe.crossing < 0 || stripe.crossing > length) continue;
-    if (at_seam(view, stripe) != AtSeam::kOn) continue;
+    if (stripe.at_seam != AtSeam::kOn) continue;
     ++edges.stripes;
     const auto edge = edge_in(view, stripe);
     if (!edge) continue;
@@ -89,8 +88,10 @@ void leave_out_across(const SeamEdges& edges, PlateView& view) {
   if (edges.stripes < kReferee.shown_stripes || edges.leaving < kReferee.nearly_all * edges.stripes)
     return;
   for (StripeOnPlate& stripe : view.stripes)
-    if (runs_across(view, stripe))
+    if (runs_across(view, stripe)) {
       for (Place& place : stripe.places) place.look = Look::kThrough;
+      stripe.at_seam = AtSeam::kOff;
+    }
 }
 
 }  // namespace arcstart::seam_finding
