@@ -12,6 +12,8 @@ struct RefereeConstants {
 
   // mm; a stripe is looked at in points no nearer to each other - a seventh of a spacing.
   double step = 0.5;
+  // Points of a stripe within a step, at most - 0.07 mm a pixel and less.
+  int longest_jump = 16;
   // mm; of a plate away from the seam, at most - what a plate's edge is known by.
   double reach = 60;
   // mm; a plate counts from there on: nearer, fillets, gaps and reflections are - bench.
@@ -48,6 +50,9 @@ struct RefereeConstants {
 
   // Places of a stripe in a row that are not on a plate: it has ended there - bench.
   int others_in_a_row = 2;
+
+  // Places by which a plate's shape is known well enough - its noise over their root.
+  int shape_places = 1000;
 
   // Tilt against the plane claimed, at most; rad - 0.6 of what must be noticed, 1 degree.
   double turned = 0.0105;

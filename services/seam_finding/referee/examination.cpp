@@ -41,9 +41,10 @@ Examination examine(const ScanCloud& cloud, const SeamResult& seam) {
   const auto lights = light_of(cloud);
   if (lights.empty()) return examination;
   const double length = (seam.end - seam.start).norm();
+  const std::vector<int> points = points_to_look_at(cloud);
   std::array<PlateView, 2>& views = examination.views;
   for (int j = 0; j < 2; ++j) {
-    views[j] = view_of(cloud, lights, seam, j);
+    views[j] = view_of(cloud, points, lights, seam, j);
     examination.shapes[j] = shape_of(views[j], length);
     set_looks(examination.shapes[j], length, views[j]);
     if (end_at_seam(seam)[j]) {

@@ -23,13 +23,18 @@ struct Scale {
   }
 };
 
-template <class Visitor>
-void visit_places(const PlateView& view, double length, const Scale& scale, Visitor visitor) {
+// Between the ends and in the strip, near the plane; evenly thinned out to some thousand.
+std::vector<Place> places_within(const PlateView& view, double length, const Scale& scale) {
+  std::vector<Place> all;
   for (const StripeOnPlate& stripe : view.stripes)
     for (const Place& place : stripe.places)
       if (place.along > 0 && place.along < length && place.away > scale.begin &&
           place.away < scale.begin + scale.width && std::abs(place.height) < 2 * kReferee.bend)
-        visitor(place);
+        all.push_back(place);
+  const std::size_t step = all.size() / kReferee.shape_places + 1;
+  std::vector<Place> some;
+  for (std::size_t i = 0; i < all.size(); i += step) some.push_back(all[i]);
+  return some;
 }
 
 // By stripes between the ends that nothing before the plate cuts short.
@@ -112,6 +117,7 @@ PlateShape shape_within(const PlateView& view, double length, double from, doubl
   Scale scale{length / 2, length / 2, view.begin + from, width};
   shape.tolerance = kReferee.most_tolerance;
   shape.middle = scale.middle, shape.half = scale.half;
+  const std::vector<Place> places = places_within(view, length, scale);
   Terms solution = Terms::Zero();
   double cut = kReferee.bend, squares = 0;
   Eigen::Matrix<double, kTerms, kTerms> inverse;
@@ -121,24 +127,24 @@ PlateShape shape_within(const PlateView& view, double length, double from, doubl
         1e-6 * Eigen::Matrix<double, kTerms, kTerms>::Identity();
     Terms right = Terms::Zero();
     count = 0;
-    visit_places(view, length, scale, [&](const Place& place) {
+    for (const Place& place : places) {
       const Terms terms = scale.terms(place);
-      if (std::abs(place.height - solution.dot(terms)) > cut) return;
+      if (std::abs(place.height - solution.dot(terms)) > cut) continue;
       matrix += terms * terms.transpose();
       right += place.height * terms;
       ++count;
-    });
+    }
     if (count < 4 * kTerms) return shape;
     inverse = matrix.inverse();
     solution = inverse * right;
     squares = 0;
     double kept = 0, farthest = 0;
-    visit_places(view, length, scale, [&](const Place& place) {
+    for (const Place& place : places) {
       const double residual = place.height - solution.dot(scale.terms(place));
-      if (std::abs(residual) > cut) return;
+      if (std::abs(residual) > cut) continue;
       squares += residual * residual, ++kept;
       farthest = std::max(farthest, place.away);
-    });
+    }
     shape.noise = std::sqrt(squares / std::max(1.0, kept - kTerms));
     shape.width = farthest - scale.begin;
     cut = std::clamp(3 * shape.noise, kReferee.least_tolerance, kReferee.bend);

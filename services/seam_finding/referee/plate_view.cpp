@@ -61,22 +61,17 @@ bool set_trace(const Frame& frame, const StripeLight& light, const Eigen::Vector
   return std::abs(stripe.lean) < kReferee.flattest;
 }
 
-void add_places(const ScanCloud& cloud, const Frame& frame, const StripeLight& light,
-                StripeOnPlate& stripe) {
+void add_places(const ScanCloud& cloud, const std::vector<int>& points, const Frame& frame,
+                const StripeLight& light, StripeOnPlate& stripe) {
   const ScanStripe& seen = cloud.stripes[stripe.stripe];
-  const Eigen::Vector3d* last = nullptr;
-  for (int i = seen.first; i < seen.first + seen.count; ++i) {
-    const Eigen::Vector3d& point = cloud.points[i];
-    if (last && !cloud.origins[i].segment_end &&
-        (point - *last).squaredNorm() < kReferee.step * kReferee.step)
-      continue;
-    last = &point;
-    const auto place = place_of(frame, light, point);
+  for (auto i = std::lower_bound(points.begin(), points.end(), seen.first);
+       i != points.end() && *i < seen.first + seen.count; ++i) {
+    const auto place = place_of(frame, light, cloud.points[*i]);
     if (!place || place->away < -kReferee.across_seam || place->away > kReferee.reach) continue;
     stripe.places.push_back(*place);
-    stripe.places.back().ends = cloud.origins[i].segment_end;
-    stripe.places.back().point = i;
-    stripe.places.back().segment = cloud.origins[i].segment;
+    stripe.places.back().ends = cloud.origins[*i].segment_end;
+    stripe.places.back().point = *i;
+    stripe.places.back().segment = cloud.origins[*i].segment;
   }
   std::sort(stripe.places.begin(), stripe.places.end(),
             [](const Place& a, const Place& b) { return a.away < b.away; });
@@ -111,8 +106,31 @@ double begin_of(const PlateView& view, double length) {
 
 }  // namespace
 
-PlateView view_of(const ScanCloud& cloud, const std::vector<std::optional<StripeLight>>& lights,
-                  const SeamResult& seam, int plate) {
+std::vector<int> points_to_look_at(const ScanCloud& cloud) {
+  std::vector<int> kept;
+  const std::vector<Eigen::Vector3d>& points = cloud.points;
+  const std::vector<PointOrigin>& origins = cloud.origins;
+  for (const ScanStripe& stripe : cloud.stripes) {
+    const int behind = stripe.first + stripe.count;
+    for (int i = stripe.first; i < behind;) {
+      kept.push_back(i);
+      // So far as neighbours lie within a step, but not over a segment's end. Noise parts direct
+      // neighbours more than the way along the stripe does.
+      int jump = kReferee.longest_jump;
+      while (jump > 1 && (i + jump >= behind || origins[i + jump].segment != origins[i].segment))
+        jump /= 2;
+      while (jump > 1 &&
+             (points[i + jump] - points[i]).squaredNorm() > 4 * kReferee.step * kReferee.step)
+        jump /= 2;
+      i += jump;
+    }
+  }
+  return kept;
+}
+
+PlateView view_of(const ScanCloud& cloud, const std::vector<int>& points,
+                  const std::vector<std::optional<StripeLight>>& lights, const SeamResult& seam,
+                  int plate) {
   PlateView view;
   view.plate = seam.faces[plate];
   const Frame frame = frame_of(seam, view.plate);
@@ -123,7 +141,7 @@ PlateView view_of(const ScanCloud& cloud, const std::vector<std::optional<Stripe
     stripe.stripe = static_cast<int>(k);
     if (!set_trace(frame, *lights[k], cloud.stripes[k].camera_centre, stripe)) continue;
     if (stripe.crossing < -kReferee.beyond || stripe.crossing > length + kReferee.beyond) continue;
-    add_places(cloud, frame, *lights[k], stripe);
+    add_places(cloud, points, frame, *lights[k], stripe);
     view.stripes.push_back(std::move(stripe));
   }
   std::sort(view.stripes.begin(), view.stripes.end(),

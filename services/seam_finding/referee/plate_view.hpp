@@ -57,9 +57,14 @@ struct PlateView {
   std::vector<StripeOnPlate> stripes;
 };
 
+// Of each stripe those that stand about a millimetre apart, and the ends of
+// its segments. Rising.
+std::vector<int> points_to_look_at(const ScanCloud& cloud);
+
 // heights as they are, everything kOn: what they mean is told by set_looks(). begin: by the heights
 // over the claimed plane, along the middle of the seam.
-PlateView view_of(const ScanCloud& cloud, const std::vector<std::optional<StripeLight>>& lights,
-                  const SeamResult& seam, int plate);
+PlateView view_of(const ScanCloud& cloud, const std::vector<int>& points,
+                  const std::vector<std::optional<StripeLight>>& lights, const SeamResult& seam,
+                  int plate);
 
 }  // namespace arcstart::seam_finding
