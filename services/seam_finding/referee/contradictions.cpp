@@ -13,7 +13,8 @@ using Code = Reason::Code;
 
 // A plate that is no plane, or lies otherwise than is claimed.
 Reason of_shape(const PlateShape& shape, const PlateView& view) {
-  if (!shape.known) return {Code::kPlateNotShown};
+  if (!shape.known || std::abs(shape.height_at_seam(shape.middle)) > kReferee.bend)
+    return {Code::kPlateNotShown};
   const double sure = kReferee.deviations;
   if (std::abs(shape.tilt) > std::max(kReferee.turned, sure * shape.tilt_deviation))
     return {Code::kPlateTurned, shape.tilt};

@@ -39,7 +39,7 @@ std::vector<Place> places_within(const PlateView& view, double length, const Sca
 
 // By stripes between the ends that nothing before the plate cuts short.
 void set_width(double length, double tolerance, PlateView& view) {
-  std::vector<double> widths;
+  std::vector<double> widths, cut;
   for (const StripeOnPlate& stripe : view.stripes) {
     double reached = -1;
     int others = 0;  // in a row
@@ -52,8 +52,10 @@ void set_width(double length, double tolerance, PlateView& view) {
       if (others == kReferee.others_in_a_row && reached >= 0) break;
       if (place.look == Look::kOn) reached = place.away;
     }
-    if (reached > 0 && !cut_short) widths.push_back(reached);
+    if (reached > 0) (cut_short ? cut : widths).push_back(reached);
   }
+  // Where nearly all are cut short, they must do.
+  if (3 * widths.size() < cut.size()) widths.insert(widths.end(), cut.begin(), cut.end());
   if (widths.empty()) return;
   const auto quantile = [&](std::size_t quarters) {
     const auto at = widths.begin() + static_cast<std::ptrdiff_t>(quarters * widths.size() / 4);
@@ -206,7 +208,9 @@ double PlateShape::height_at(double along, double away) const {
 
 PlateShape shape_of(const PlateView& view, double length) {
   const PlateShape wide = shape_within(view, length, kReferee.shape_from, kReferee.shape_width);
-  return wide.known ? wide : shape_within(view, length, kReferee.beside_seam, kReferee.narrow);
+  const bool good = wide.known && wide.tilt_deviation < kReferee.turned &&
+                    std::abs(wide.height_at_seam(wide.middle)) < kReferee.bend;
+  return good ? wide : shape_within(view, length, kReferee.beside_seam, kReferee.narrow);
 }
 
 void set_looks(const PlateShape& shape, double length, PlateView& view) {
