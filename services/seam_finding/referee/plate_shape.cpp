@@ -194,6 +194,17 @@ AtSeam seen_at_seam(const PlateView& view, const StripeOnPlate& stripe) {
   return AtSeam::kPart;
 }
 
+// A single place at the plate's height beside what stands on the plate is on that thing's flank.
+void leave_out_flanks(StripeOnPlate& stripe) {
+  std::vector<Place>& places = stripe.places;
+  const auto on = [&](std::size_t i) { return places[i].look == Look::kOn; };
+  for (std::size_t i = 1; i + 1 < places.size(); ++i) {
+    if (!on(i) || on(i - 1) || on(i + 1)) continue;
+    if (places[i - 1].look == Look::kBefore || places[i + 1].look == Look::kBefore)
+      places[i].look = Look::kBefore;
+  }
+}
+
 }  // namespace
 
 double PlateShape::height_at_seam(double along) const {
@@ -228,6 +239,7 @@ void set_looks(const PlateShape& shape, double length, PlateView& view) {
     set_looks(shape, view.begin, *--stripe, risen);
   for (StripeOnPlate& stripe : stripes) {
     fill_in(stripe);
+    leave_out_flanks(stripe);
     stripe.at_seam = seen_at_seam(view, stripe);
   }
   set_width(length, shape.tolerance, view);
