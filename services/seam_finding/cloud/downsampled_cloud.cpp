@@ -34,8 +34,7 @@ void downsample(const ScanCloud& scan, DownsampledCloud& downsampled) {
       few.origins.push_back(origins[i]);
       downsampled.places.push_back(i);
     }
-    end_stripe(few, stripe.seen, stripe.camera_centre, stripe.tool_position,
-               stripe.tool_turn);
+    end_stripe(few, stripe.seen, stripe.camera_centre, stripe.tool_position, stripe.tool_turn);
   }
 }
 
