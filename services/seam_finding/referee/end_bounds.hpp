@@ -19,8 +19,8 @@ struct EndBounds {
   int crossings = 0;     // stripes that leave the plate over its edge
 };
 
-// end: along the seam, of the claim. spacing: of the stripes along the seam; mm.
-EndBounds bounds_of(const PlateView& view, SeamSide side, double end, double spacing);
+// along: the seam, of the claimed end. spacing: of the stripes along the seam; mm.
+EndBounds bounds_of(const PlateView& view, SeamSide side, double along, double spacing);
 
 // Of the seam, which ends where the first of its plates does.
 EndBounds first_of(const EndBounds& a, const EndBounds& b);

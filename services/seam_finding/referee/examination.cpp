@@ -5,6 +5,8 @@
 
 #include "services/seam_finding/referee/constants.hpp"
 #include "services/seam_finding/referee/contradictions.hpp"
+#include "services/seam_finding/referee/plate_looks.hpp"
+#include "services/seam_finding/referee/quantile.hpp"
 #include "services/seam_finding/referee/stripe_light.hpp"
 
 namespace arcstart::seam_finding {
@@ -15,9 +17,7 @@ double spacing_of(const PlateView& view) {
   for (std::size_t k = 1; k < view.stripes.size(); ++k)
     steps.push_back(view.stripes[k].crossing - view.stripes[k - 1].crossing);
   if (steps.empty()) return 0;
-  const auto middle = steps.begin() + static_cast<std::ptrdiff_t>(steps.size() / 2);
-  std::nth_element(steps.begin(), middle, steps.end());
-  return *middle;
+  return quantile_of(steps, 0.5);
 }
 
 // Of the places where the plates are claimed, those that show them; -1 where there are none.

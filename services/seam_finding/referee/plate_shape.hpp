@@ -26,7 +26,4 @@ struct PlateShape {
 // Least squares with what lies far off left out, between the claimed ends.
 PlateShape shape_of(const PlateView& view, double length);
 
-// Tells the plate from what lies behind and before it, and how wide it is.
-void set_looks(const PlateShape& shape, double length, PlateView& view);
-
 }  // namespace arcstart::seam_finding

@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "services/seam_finding/referee/constants.hpp"
+#include "services/seam_finding/referee/quantile.hpp"
 
 namespace arcstart::seam_finding {
 namespace {
@@ -53,7 +54,7 @@ bool set_trace(const Frame& frame, const StripeLight& light, const Eigen::Vector
   if (frame.plane.signed_distance(light.source) <= 0 || frame.plane.signed_distance(camera) <= 0)
     return false;
   const double slope = light.plane.normal.dot(frame.along);
-  if (std::abs(slope) < 1e-3) return false;
+  if (std::abs(slope) < kReferee.least_slope) return false;
   stripe.crossing = -light.plane.signed_distance(frame.origin) / slope;
   stripe.lean = -light.plane.normal.dot(frame.away) / slope;
   const Eigen::Vector3d place = frame.origin + stripe.crossing * frame.along;
@@ -77,15 +78,15 @@ void add_places(const ScanCloud& cloud, const std::vector<int>& points, const Fr
             [](const Place& a, const Place& b) { return a.away < b.away; });
 }
 
-// Of half the stripes at the middle of the seam that nothing covers: the first of two
-// places in a row on the claimed plane.
+// Of half the stripes at the middle of the seam that nothing covers: the first of two places in a
+// row on the claimed plane.
 double begin_of(const PlateView& view, double length) {
   std::vector<double> begins;
   for (const StripeOnPlate& stripe : view.stripes) {
-    if (stripe.crossing < length / 5 || stripe.crossing > length * 4 / 5) continue;
+    if (std::abs(stripe.crossing - length / 2) > kReferee.middle * length) continue;
     const Place* last = nullptr;
     for (const Place& place : stripe.places) {
-      if (place.away < view.plate.inset - kReferee.step) continue;
+      if (place.away < view.plate.inset - kReferee.step / 2) continue;
       if (place.height > kReferee.bend) break;  // covered
       const bool on = std::abs(place.height) < kReferee.bend;
       if (on && last) {
@@ -96,12 +97,11 @@ double begin_of(const PlateView& view, double length) {
     }
   }
   if (begins.empty()) return view.plate.inset;
-  const auto half = begins.begin() + static_cast<std::ptrdiff_t>(begins.size() / 2);
-  std::nth_element(begins.begin(), half, begins.end());
+  const double half = quantile_of(begins, 0.5);
   // What is nearer than the places stand to each other is the seam itself.
-  return *half < view.plate.inset + kReferee.step
+  return half < view.plate.inset + kReferee.step / 2
              ? view.plate.inset
-             : std::min(*half, view.plate.inset + kReferee.farthest_begin);
+             : std::min(half, view.plate.inset + kReferee.farthest_begin);
 }
 
 }  // namespace
@@ -120,7 +120,7 @@ std::vector<int> points_to_look_at(const ScanCloud& cloud) {
       while (jump > 1 && (i + jump >= behind || origins[i + jump].segment != origins[i].segment))
         jump /= 2;
       while (jump > 1 &&
-             (points[i + jump] - points[i]).squaredNorm() > 4 * kReferee.step * kReferee.step)
+             (points[i + jump] - points[i]).squaredNorm() > kReferee.step * kReferee.step)
         jump /= 2;
       i += jump;
     }

@@ -64,7 +64,7 @@ class EndRuling {
                  most = std::min(bounds_.most, kReferee.beyond);
     second.place = (start_ ? seam_.start : seam_.end) +
                    (start_ ? -1 : 1) * (least + most) / 2 * seam_.direction;
-    second.weight = 0.5;
+    second.weight = kReferee.second_weight;
     undetermined(Code::kStartContradicted, Code::kEndContradicted, std::abs(by));
   }
 

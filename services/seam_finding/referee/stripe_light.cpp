@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "services/seam_finding/referee/constants.hpp"
+#include "services/seam_finding/referee/quantile.hpp"
 
 namespace arcstart::seam_finding {
 namespace {
@@ -43,9 +44,8 @@ std::optional<Plane> robust_plane(std::vector<Eigen::Vector3d> points) {
     std::vector<double> distances;
     for (const Eigen::Vector3d& p : points)
       distances.push_back(std::abs(plane->signed_distance(p)));
-    const auto middle = distances.begin() + static_cast<std::ptrdiff_t>(distances.size() / 2);
-    std::nth_element(distances.begin(), middle, distances.end());
-    const double farthest = std::max(6 * *middle, 1e-3);
+    const double farthest =
+        std::max(kReferee.light_cut * quantile_of(distances, 0.5), kReferee.light_noise);
     points.erase(std::remove_if(points.begin(), points.end(),
                                 [&](const Eigen::Vector3d& p) {
                                   return std::abs(plane->signed_distance(p)) > farthest;

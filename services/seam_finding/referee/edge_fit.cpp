@@ -1,0 +1,95 @@
+#include "services/seam_finding/referee/edge_fit.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include "services/seam_finding/referee/constants.hpp"
+
+namespace arcstart::seam_finding {
+namespace {
+
+constexpr double kSame = 1e-6;  // sums of weights that differ less are the same
+constexpr double kInfinite = std::numeric_limits<double>::infinity();
+
+// Where a straight edge of one slope may meet the seam so that as few stripes as possible
+// contradict it.
+struct Limit {
+  double at;
+  bool least;
+  double weight;
+};
+double narrow(std::vector<Limit>& limits, EdgeFoot& result) {
+  std::sort(limits.begin(), limits.end(), [](const Limit& a, const Limit& b) {
+    return a.at != b.at ? a.at < b.at : a.least > b.least;
+  });
+  double wrong = 0;  // at minus infinity
+  for (const Limit& limit : limits) wrong += limit.least ? limit.weight : 0;
+  double best = wrong;
+  result = {-kInfinite, limits.empty() ? kInfinite : limits.front().at};
+  for (std::size_t i = 0; i < limits.size(); ++i) {
+    wrong += limits[i].least ? -limits[i].weight : limits[i].weight;
+    const double next = i + 1 < limits.size() ? limits[i + 1].at : kInfinite;
+    if (wrong < best - kSame)
+      best = wrong, result = {limits[i].at, next};
+    else if (wrong < best + kSame)
+      result.most = std::max(result.most, next);
+  }
+  return best;
+}
+
+}  // namespace
+
+// The slopes from square to steepest, to both sides by turns: a square edge is found first, and
+// then slopes that contradict stripes need not be looked at.
+EdgeFit fit_edge(const std::vector<EdgeEvidence>& all, double play) {
+  EdgeFit fit;
+  for (const EdgeEvidence& evidence : all) fit.crossings += evidence.crosses();
+  fit.contradicting = kInfinite;
+  std::vector<Limit> limits;
+  const int steps = static_cast<int>(std::lround(kReferee.steepest / kReferee.steepness_step));
+  for (int i = 0; i <= 2 * steps; ++i) {
+    const double slope = (i % 2 == 0 ? i / 2 : -(i + 1) / 2) * kReferee.steepness_step;
+    limits.clear();
+    EdgeFoot foot;
+    for (const EdgeEvidence& evidence : all) {
+      double least = -kInfinite, most = kInfinite, dark = kInfinite;
+      for (const EdgeMark& mark : evidence.on)
+        least = std::max(least, mark.out - slope * mark.away);
+      for (const EdgeMark& mark : evidence.off) most = std::min(most, mark.out - slope * mark.away);
+      for (const EdgeMark& mark : evidence.dark)
+        dark = std::min(dark, mark.out - slope * mark.away);
+      if (std::isfinite(least)) limits.push_back({least - play, true, 1});
+      if (std::isfinite(most)) limits.push_back({most + play, false, 1});
+      if (std::isfinite(dark)) limits.push_back({dark + play, false, kReferee.dark_weight});
+      foot.least = std::max(foot.least, least - play);
+      foot.most = std::min({foot.most, most + play, dark + play});
+    }
+    double contradicting = 0;
+    if (foot.least > foot.most) {
+      if (fit.contradicting < kSame) continue;
+      contradicting = narrow(limits, foot);
+    }
+    if (contradicting < fit.contradicting - kSame) {
+      fit.contradicting = contradicting;
+      fit.foot = foot;
+    } else if (contradicting < fit.contradicting + kSame) {
+      fit.foot.least = std::min(fit.foot.least, foot.least);
+      fit.foot.most = std::max(fit.foot.most, foot.most);
+    }
+  }
+  return fit;
+}
+
+EdgeFit fit_waved_edge(const std::vector<EdgeEvidence>& all) {
+  EdgeFit fit = fit_edge(all, kReferee.place);
+  for (double play = 2 * kReferee.place; fit.contradicting > 1 && play <= kReferee.largest_wave;
+       play *= 2) {
+    EdgeFit waved = fit_edge(all, play);
+    if (waved.contradicting > fit.contradicting - kSame) continue;
+    waved.foot.least -= play, waved.foot.most += play;  // it may have a wave right at the seam
+    fit = waved;
+  }
+  return fit;
+}
+
+}  // namespace arcstart::seam_finding
