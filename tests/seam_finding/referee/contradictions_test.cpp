@@ -1,0 +1,130 @@
+#include "services/seam_finding/referee/contradictions.hpp"
+
+#include <catch2/catch.hpp>
+#include <functional>
+
+#include "common/geometry.hpp"
+#include "services/seam_finding/referee/plate_looks.hpp"
+
+using namespace arcstart;
+using namespace arcstart::seam_finding;
+
+namespace {
+
+using Code = Reason::Code;
+using Height = std::function<double(double away)>;  // over the claimed plane; mm
+
+constexpr double kLength = 100, kPitch = 3.6;
+constexpr double kDeep = -8;  // what is seen where there is no plate
+
+// On every stripe the same.
+PlateView view_of(const Height& height, double inset = 0) {
+  PlateView view;
+  view.plate.away = Eigen::Vector3d::UnitY();
+  view.plate.inset = view.begin = inset;
+  for (double crossing = -10; crossing < 110; crossing += kPitch) {
+    StripeOnPlate stripe;
+    stripe.stripe = static_cast<int>(view.stripes.size());
+    stripe.crossing = crossing, stripe.shadow = 0.4;
+    for (double away = -4.7; away < 40; away += 0.5) {
+      Place place;
+      place.along = crossing, place.away = away, place.height = height(away);
+      place.point = static_cast<int>(stripe.places.size());
+      stripe.places.push_back(place);
+    }
+    view.stripes.push_back(stripe);
+  }
+  return view;
+}
+
+double flat(double away) { return away < 0 ? kDeep : 0; }
+
+SeamResult claim(const std::string& joint) {
+  SeamResult seam;
+  seam.joint_type = joint;
+  seam.end = kLength * Eigen::Vector3d::UnitX();
+  return seam;
+}
+
+struct Judged {
+  Reason reason;
+  std::array<std::optional<SeamEdges>, 2> edges;
+  std::array<PlateView, 2> views;
+};
+Judged judged(const std::string& joint, PlateView first, PlateView second) {
+  Judged result;
+  result.views = {std::move(first), std::move(second)};
+  std::array<PlateShape, 2> shapes;
+  for (int j = 0; j < 2; ++j) {
+    shapes[j] = shape_of(result.views[j], kLength);
+    set_looks(shapes[j], kLength, result.views[j]);
+    if (!end_at_seam(claim(joint))[j]) continue;
+    result.edges[j] = edges_of(result.views[j], kLength);
+    leave_out_across(*result.edges[j], result.views[j]);
+  }
+  result.reason = contradiction_of(claim(joint), result.views, shapes, result.edges, kPitch);
+  return result;
+}
+
+Code code_of(const Height& second) {
+  return judged("tee", view_of(flat), view_of(second)).reason.code;
+}
+
+}  // namespace
+
+TEST_CASE("two plates as they are claimed are not contradicted") {
+  CHECK(code_of(flat) == Code::kNone);
+  CHECK(code_of([](double away) { return away < 0 ? kDeep : 0.2; }) == Code::kNone);  // robot
+}
+
+TEST_CASE("a plate that is turned, round, narrow or not there contradicts the seam") {
+  const auto plate = [](const Height& height) {
+    return [=](double away) { return away < 0 ? kDeep : height(away); };
+  };
+  CHECK(code_of(plate([](double away) { return away * std::tan(kDegree); })) == Code::kPlateTurned);
+  CHECK(code_of(plate([](double away) { return away * std::tan(0.3 * kDegree); })) == Code::kNone);
+  // A round bar of 12 mm radius whose flank touches the plane 8 mm from the seam.
+  CHECK(code_of([](double away) {
+          const double off = away - 8;
+          return std::abs(off) < 12 ? std::sqrt(144 - off * off) - 12 : kDeep;
+        }) != Code::kNone);
+  CHECK(code_of(plate([](double away) { return away < 3.5 ? 0 : kDeep; })) != Code::kNone);
+  CHECK(code_of([](double) { return kDeep; }) == Code::kPlateNotShown);
+}
+
+TEST_CASE("between plates side by side the stripes must leave them") {
+  const Height gap = [](double away) { return std::abs(away) < 1 ? kDeep : 0; };
+  const Judged butt = judged("butt", view_of(gap, 1), view_of(gap, 1));
+  CHECK(butt.reason.code == Code::kNone);
+  REQUIRE(butt.edges[0]);
+  CHECK(butt.edges[0]->leaving == butt.edges[0]->stripes);
+  CHECK(butt.edges[0]->known);
+  CHECK(butt.edges[0]->at_start == Approx(0).margin(0.5));  // the places' step
+
+  const Height whole = [](double) { return 0.0; };
+  CHECK(judged("butt", view_of(whole, 1), view_of(whole, 1)).reason.code == Code::kNoEdgeAtSeam);
+  CHECK(judged("tee", view_of(whole), view_of(whole)).reason.code == Code::kNone);
+}
+
+TEST_CASE("a stripe that runs on across is of no seam where all others leave the plates there") {
+  const Height gap = [](double away) { return std::abs(away) < 1 ? kDeep : 0; };
+  const Height whole = [](double) { return 0.0; };
+  PlateView view = view_of(gap, 1);
+  const PlateView tab = view_of(whole, 1);
+  for (std::size_t k = 0; k < 3; ++k) view.stripes[k] = tab.stripes[k];
+  const Judged butt = judged("butt", view, view);
+  for (std::size_t k = 0; k < 6; ++k) {
+    INFO("stripe " << k);
+    CHECK(butt.views[0].stripes[k].at_seam == (k < 3 ? AtSeam::kOff : AtSeam::kOn));
+  }
+}
+
+TEST_CASE("a seam along which one of the plates is missing is contradicted") {
+  PlateView second = view_of(flat);
+  const PlateView none = view_of([](double) { return kDeep; });
+  for (std::size_t k = 0; k < second.stripes.size(); ++k)
+    if (k % 2 == 0) second.stripes[k] = none.stripes[k];
+  const Reason reason = judged("tee", view_of(flat), second).reason;
+  CHECK(reason.code == Code::kSeamNotShown);
+  CHECK(reason.number < 0.6 * reason.of);
+}
