@@ -16,11 +16,12 @@ Reason of_shape(const PlateShape& shape, const PlateView& view) {
   if (!shape.known || std::abs(shape.height_at_seam(shape.middle)) > kReferee.bend)
     return {Code::kPlateNotShown};
   const double sure = kReferee.deviations;
-  if (std::abs(shape.tilt) > std::max(kReferee.turned, sure * shape.tilt_deviation))
-    return {Code::kPlateTurned, shape.tilt};
   const bool round =
       -shape.curvature > 1 / kReferee.round && -shape.curvature > sure * shape.curvature_deviation;
   if (round && shape.width < kReferee.narrow) return {Code::kPlateRound, -1 / shape.curvature};
+  // After that: a plane through a part of something round is tilted as well.
+  if (std::abs(shape.tilt) > std::max(kReferee.turned, sure * shape.tilt_deviation))
+    return {Code::kPlateTurned, shape.tilt};
   const double width = view.widest - view.begin;
   if (width < kReferee.narrowest) return {Code::kPlateTooNarrow, width};
   return {};

@@ -87,8 +87,9 @@ TEST_CASE("a plate that is turned, round, narrow or not there contradicts the se
   CHECK(code_of([](double away) {
           const double off = away - 8;
           return std::abs(off) < 12 ? std::sqrt(144 - off * off) - 12 : kDeep;
-        }) != Code::kNone);
-  CHECK(code_of(plate([](double away) { return away < 3.5 ? 0 : kDeep; })) != Code::kNone);
+        }) == Code::kPlateRound);
+  CHECK(code_of(plate([](double away) { return away < 4.5 ? 0 : kDeep; })) ==
+        Code::kPlateTooNarrow);
   CHECK(code_of([](double) { return kDeep; }) == Code::kPlateNotShown);
 }
 
