@@ -98,6 +98,9 @@ struct RefereeConstants {
   int stripes_inside = 12;
   // mm; from where a plate begins, the first place that says that it is there - bench.
   double first_place = 0.5;
+  // Spacings of stripes from one that shows that a plate has ended to the next, at most, for that
+  // to be believed - the next, with a spacing that varies by a half.
+  double lone = 1.5;
   // Share of a stripe's places on a plate that may be on the wrong side of its edge - bench.
   double misfit = 0.15;
   // mm; of a plate's width in a stripe, that shows nothing by accident - bench.

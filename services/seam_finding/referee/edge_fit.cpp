@@ -34,6 +34,11 @@ double narrow(std::vector<Limit>& limits, EdgeFoot& result) {
     else if (wrong < best + kSame)
       result.most = std::max(result.most, next);
   }
+  for (const Limit& limit : limits)
+    if (!limit.least && limit.at > result.most) {
+      result.most_but_one = limit.at;
+      break;
+    }
   return best;
 }
 
@@ -62,7 +67,9 @@ EdgeFit fit_edge(const std::vector<EdgeEvidence>& all, double play) {
       if (std::isfinite(most)) limits.push_back({most + play, false, 1});
       if (std::isfinite(dark)) limits.push_back({dark + play, false, kReferee.dark_weight});
       foot.least = std::max(foot.least, least - play);
-      foot.most = std::min({foot.most, most + play, dark + play});
+      const double outermost = std::min(most, dark) + play;
+      foot.most_but_one = std::min(foot.most_but_one, std::max(outermost, foot.most));
+      foot.most = std::min(foot.most, outermost);
     }
     double contradicting = 0;
     if (foot.least > foot.most) {
@@ -75,6 +82,7 @@ EdgeFit fit_edge(const std::vector<EdgeEvidence>& all, double play) {
     } else if (contradicting < fit.contradicting + kSame) {
       fit.foot.least = std::min(fit.foot.least, foot.least);
       fit.foot.most = std::max(fit.foot.most, foot.most);
+      fit.foot.most_but_one = std::max(fit.foot.most_but_one, foot.most_but_one);
     }
   }
   return fit;
@@ -86,7 +94,8 @@ EdgeFit fit_waved_edge(const std::vector<EdgeEvidence>& all) {
        play *= 2) {
     EdgeFit waved = fit_edge(all, play);
     if (waved.contradicting > fit.contradicting - kSame) continue;
-    waved.foot.least -= play, waved.foot.most += play;  // it may have a wave right at the seam
+    waved.foot.least -= play, waved.foot.most += play,
+        waved.foot.most_but_one += play;  // it may have a wave right at the seam
     fit = waved;
   }
   return fit;

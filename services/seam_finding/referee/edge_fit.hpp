@@ -12,6 +12,8 @@ namespace arcstart::seam_finding {
 struct EdgeFoot {
   double least = -std::numeric_limits<double>::infinity();
   double most = std::numeric_limits<double>::infinity();
+  // As `most`, were the stripe that says so not there.
+  double most_but_one = std::numeric_limits<double>::infinity();
 };
 
 struct EdgeFit {

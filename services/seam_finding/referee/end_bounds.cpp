@@ -53,16 +53,19 @@ double depth_behind(const PlateView& view, const StripeOnPlate& stripe) {
 }
 
 // Dark stripes between one that shows the plate and one that shows what lies behind it are the
-// shadow of the plate's own edge, where they reach no farther than that can; else something may
-// hide the plate there. True for those, and for the stripe on the plate next to them.
+// shadow of the plate's own edge, where they reach no farther than that can and nothing stands
+// beside the seam there; else something may hide the plate. True for those, and for the stripe on
+// the plate next to them.
 std::vector<bool> in_own_shadow(const PlateView& view,
                                 const std::vector<const StripeOnPlate*>& stripes, double spacing) {
   std::vector<bool> own(stripes.size(), false);
   for (std::size_t i = stripes.size(); i-- > 1;) {
     if (stripes[i]->at_seam != AtSeam::kOff) continue;
     std::size_t inner = i;
-    while (inner > 0 && stripes[inner - 1]->at_seam == AtSeam::kUnknown) --inner;
-    if (inner == 0) continue;
+    bool covered = stripes[i]->covered;
+    while (inner > 0 && stripes[inner - 1]->at_seam == AtSeam::kUnknown)
+      covered |= stripes[--inner]->covered;
+    if (inner == 0 || covered) continue;
     const AtSeam seen = stripes[inner - 1]->at_seam;
     if (seen != AtSeam::kOn && seen != AtSeam::kPart) continue;
     const double dark =
@@ -105,13 +108,16 @@ EndBounds bounds_of(const PlateView& view, SeamSide side, double along, double s
   EdgeFoot foot = beside.foot;
   if (bounds.straight) {
     const EdgeFoot both{std::max(beside.foot.least, whole.foot.least),
-                        std::min(beside.foot.most, whole.foot.most)};
+                        std::min(beside.foot.most, whole.foot.most),
+                        std::min(beside.foot.most_but_one, whole.foot.most_but_one)};
     if (both.least <= both.most)
       foot = both;
     else
       bounds.straight = false;
   }
   bounds.least = foot.least, bounds.most = foot.most;
+  // A lone stripe before such as show nothing of the plate may have met a hole in it.
+  if (foot.most_but_one > foot.most + kReferee.lone * spacing) bounds.most = foot.most_but_one;
   return bounds;
 }
 

@@ -33,6 +33,26 @@ double explained_by(const std::array<PlateView, 2>& views, double length) {
   return all > 0 ? on / all : -1;
 }
 
+bool stands_before(const PlateView& view, const StripeOnPlate& stripe) {
+  const double from = view.begin + kReferee.beside_seam;
+  return std::any_of(stripe.places.begin(), stripe.places.end(), [from](const Place& place) {
+    return place.look == Look::kBefore && place.away > from &&
+           place.away < from + kReferee.near_seam;
+  });
+}
+
+// What stands before one plate casts its shadow on both.
+void set_covered(std::array<PlateView, 2>& views) {
+  std::vector<int> covered;  // stripes
+  for (const PlateView& view : views)
+    for (const StripeOnPlate& stripe : view.stripes)
+      if (stands_before(view, stripe)) covered.push_back(stripe.stripe);
+  std::sort(covered.begin(), covered.end());
+  for (PlateView& view : views)
+    for (StripeOnPlate& stripe : view.stripes)
+      stripe.covered = std::binary_search(covered.begin(), covered.end(), stripe.stripe);
+}
+
 }  // namespace
 
 Examination examine(const ScanCloud& cloud, const SeamResult& seam) {
@@ -52,6 +72,7 @@ Examination examine(const ScanCloud& cloud, const SeamResult& seam) {
       leave_out_across(*examination.edges[j], views[j]);
     }
   }
+  set_covered(views);
   examination.stripes =
       static_cast<int>(std::max(views[0].stripes.size(), views[1].stripes.size()));
   examination.spacing = spacing_of(views[0].stripes.size() > 1 ? views[0] : views[1]);

@@ -44,6 +44,7 @@ struct StripeOnPlate {
                       // camera, the longer
   std::vector<Place> places;  // by rising away
   AtSeam at_seam = AtSeam::kUnknown;
+  bool covered = false;  // something stands before this plate or the other one beside the seam
 };
 
 // Of one plate: the stripes within reach of the seam, in order of their crossings.

@@ -1,5 +1,6 @@
 #include "services/seam_finding/referee/seam_edges.hpp"
 
+#include <algorithm>
 #include <cmath>
 #include <vector>
 
@@ -35,9 +36,14 @@ bool fit_course(std::vector<EdgePlace> places, double length, SeamEdges& edges) 
   return true;
 }
 
-// On the plate from beside the seam to the other plate's side.
+// On the plate from beside the seam to the other plate's side: a stripe that begins beside the seam
+// may have its edge in a shadow.
 bool runs_across(const PlateView& view, const StripeOnPlate& stripe) {
-  return stripe.at_seam == AtSeam::kOn && !edge_in(view, stripe);
+  const double beyond = view.plate.inset - kReferee.edge_off;
+  return stripe.at_seam == AtSeam::kOn && !edge_in(view, stripe) &&
+         std::any_of(stripe.places.begin(), stripe.places.end(), [beyond](const Place& place) {
+           return place.look == Look::kOn && place.away < beyond;
+         });
 }
 
 }  // namespace

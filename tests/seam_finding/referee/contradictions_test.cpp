@@ -120,6 +120,15 @@ TEST_CASE("a stripe that runs on across is of no seam where all others leave the
   }
 }
 
+TEST_CASE("a stripe that a shadow cuts off beside the seam does not run on across it") {
+  const Height gap = [](double away) { return std::abs(away) < 1 ? kDeep : 0; };
+  PlateView view = view_of(gap, 1);
+  for (std::size_t k = 0; k < 3; ++k)
+    std::erase_if(view.stripes[k].places, [](const Place& place) { return place.away < 1.6; });
+  const Judged butt = judged("butt", view, view);
+  for (std::size_t k = 0; k < 3; ++k) CHECK(butt.views[0].stripes[k].at_seam == AtSeam::kOn);
+}
+
 TEST_CASE("a seam along which one of the plates is missing is contradicted") {
   PlateView second = view_of(flat);
   const PlateView none = view_of([](double) { return kDeep; });

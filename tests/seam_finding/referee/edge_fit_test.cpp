@@ -71,6 +71,23 @@ TEST_CASE("an edge's foot lies between the same places as by trying all edges") 
   }
 }
 
+TEST_CASE(
+    "how far an edge may lie without the stripe that bounds it is as with that one left out") {
+  for (unsigned seed = 1; seed <= 8; ++seed) {
+    const auto all = stripes_over(0.4 * seed - 2, 0, seed);
+    // The one whose absence sets the edge free, tried one by one.
+    double farthest = fit_edge(all, kPlay).foot.most;
+    for (std::size_t left_out = 0; left_out < all.size(); ++left_out) {
+      auto others = all;
+      others[left_out].off.clear();
+      farthest = std::max(farthest, fit_edge(others, kPlay).foot.most);
+    }
+    const EdgeFoot foot = fit_edge(all, kPlay).foot;
+    CHECK(foot.most_but_one > foot.most);
+    CHECK(foot.most_but_one == Approx(farthest).margin(0.5));  // slopes that only it forbids
+  }
+}
+
 TEST_CASE("stripes that no edge satisfies are counted, and the others tell") {
   auto all = stripes_over(1, 0.2, 11);
   all[8].on = {{9, 10}};  // stray light far outside

@@ -93,6 +93,45 @@ TEST_CASE("dark beyond a plate is its own shadow, where that reaches so far") {
   CHECK(at_start({}, hidden).most > 12);
 }
 
+TEST_CASE("a shadow beside which something stands before the plates may be that thing's") {
+  const auto covered_at = [](double from, double to) {
+    drawn::Scan shadow;
+    shadow.lean = 0;  // no stripe crosses the edge: the dark one alone bounds it
+    shadow.cover = [](double crossing) {
+      return crossing < 0 && crossing > -4 ? Cover::kDark : Cover::kNothing;
+    };
+    PlateView view = drawn::view_of({}, shadow);
+    for (StripeOnPlate& stripe : view.stripes)
+      stripe.covered = stripe.crossing > from && stripe.crossing < to;
+    return bounds_of(view, SeamSide::kBegin, 0, kPitch);
+  };
+  // At -2.9 it is dark, at -6.5 what lies behind the plate is seen.
+  // The edge may be cut at a slant, to 31 degrees.
+  CHECK(covered_at(60, 80).most > 2.9);
+  CHECK(covered_at(60, 80).most < 4.5);
+  CHECK(covered_at(-4, 0).most > 6.5);
+  CHECK(covered_at(-4, 0).most < 8.1);
+}
+
+TEST_CASE("a lone stripe through a hole beside what hides the plate does not end it") {
+  // At -2.9 a hole beside the seam, then 40 mm under a tool.
+  drawn::Scan scan;
+  scan.cover = [](double crossing) {
+    return crossing < -4 && crossing > -38 ? Cover::kBefore : Cover::kNothing;
+  };
+  drawn::Plate plate;
+  plate.from = -30;
+  PlateView view = drawn::view_of(plate, scan);
+  for (StripeOnPlate& stripe : view.stripes) {
+    if (stripe.crossing < -4 || stripe.crossing > 0) continue;
+    for (Place& place : stripe.places) place.look = Look::kThrough;
+    stripe.at_seam = AtSeam::kOff;
+  }
+  const EndBounds bounds = bounds_of(view, SeamSide::kBegin, 0, kPitch);
+  CHECK(bounds.anchored);
+  CHECK(bounds.most > 30);
+}
+
 TEST_CASE("where a plate is seen on no two stripes nothing is known of its end") {
   drawn::Scan scan;
   scan.cover = [](double crossing) { return crossing < 60 ? Cover::kBefore : Cover::kNothing; };
