@@ -159,7 +159,7 @@ TEST_CASE("poses that cannot tell are refused, with what is missing") {
   }
 }
 
-TEST_CASE("poses poorly spread are answered, and told how they would do better") {
+TEST_CASE("poses poorly spread are answered, and told how they would do better", "[figures]") {
   PrintedPlate plate;
   plate.columns = 11;
   plate.rows = 9;
@@ -190,7 +190,7 @@ TEST_CASE("a grid that looks the same upside down is settled by the robot's turn
   CHECK(set.end_to_end(run) < 0.15);
 }
 
-TEST_CASE("a bent plate is seen, a flat one is not called bent") {
+TEST_CASE("a bent plate is seen, a flat one is not called bent", "[figures]") {
   PrintedPlate bent;
   bent.bend_mm = 0.3;
   const SimulatedSet set(bent, 14, 505);
@@ -205,7 +205,7 @@ TEST_CASE("a bent plate is seen, a flat one is not called bent") {
   CHECK(flat.warnings.empty());
 }
 
-TEST_CASE("what the set never saw lies where it predicts") {
+TEST_CASE("what the set never saw lies where it predicts", "[figures]") {
   const SimulatedSet& set = well_spread_set();
   const CalibrationRun run = calibrated(set, set.said(0.1, 0.01), true);
   // A left-out pose errs by itself (0.1 mm and 0.01 deg at 300 mm) beside the set's own error.

@@ -49,7 +49,7 @@ std::optional<CalibrationRun> run(const std::string& kind, const std::string& na
 
 }  // namespace
 
-TEST_CASE("etna_calib3: what the calibration never saw lies within 0.43 mm") {
+TEST_CASE("etna_calib3: what the calibration never saw lies within 0.43 mm", "[figures]") {
   CalibrationSet set;
   const auto result = run("etna", "etna_calib3", "", set);
   if (!result) return;
@@ -73,7 +73,7 @@ TEST_CASE("etna_calib4: what the calibration never saw lies within 0.62 mm") {
   CHECK(result->left_one_out.laser_rms_mm < result->plain_left_one_out.laser_rms_mm);
 }
 
-TEST_CASE("circle_grid_10x10: bad robot data are recognised and said") {
+TEST_CASE("circle_grid_10x10: bad robot data are recognised and said", "[figures]") {
   CalibrationSet set;
   const auto result = run("industrial", "circle_grid_10x10", "g", set);
   if (!result) return;

@@ -30,7 +30,7 @@ void check_edge(const TriangleMesh& plate, const WildSeam& seam, const WildEnd& 
 
 }  // namespace
 
-TEST_CASE("A hundred scenes of each joint are what their truth says") {
+TEST_CASE("A hundred scenes of each joint are what their truth says", "[figures]") {
   for (const char* joint : wild_joints) {
     std::map<std::string, int> kinds;
     for (std::uint64_t seed = 1; seed <= seeds; ++seed) {

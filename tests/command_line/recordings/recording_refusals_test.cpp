@@ -57,7 +57,7 @@ TEST_CASE("what cannot be replayed is refused in one line that says what is lack
 
   Events undecodable = events;
   for (auto& event : undecodable)
-    if (event.channel == "LASER0_CALIBRATION") event.bytes.resize(event.bytes.size() - 1);
+    if (event.channel == "LASER0_CALIBRATION") event.bytes.pop_back();
   CHECK_THAT(refusal({folder.save("c.lcm", undecodable)}),
              Contains("LASER0_CALIBRATION") && Contains("none of its messages can be decoded"));
 
