@@ -45,6 +45,12 @@ struct EndConstants {
   // px square to the edge; what all its places have in common: light ends over edges in many ways -
   // bench.
   double common_deviation = 0.1;
+  // Along the seam for each mm away, of an edge, at most - cut up to 31 degrees.
+  double steepest = 0.6;
+  // Places on a slanting edge, at least - two lie on some edge always.
+  int slope_places = 3;
+  // Of a slanting edge's places, by how much they outweigh a square one's - one sharp place.
+  double slanted = 0.7;
   // Times less do places scatter about a slope that they show plainly, and more before - bench.
   double plainly = 2;
   // Sharp places, at least, of an edge where none was expected - bench.

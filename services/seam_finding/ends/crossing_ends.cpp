@@ -147,26 +147,27 @@ class EndFinder {
     }
     PlateExtent& extent = extents_[j];
     const StripeCrossings crossings = crossings_of(cloud_, stations_, j);
-    extent.on = seen_on_plate(cloud_, stripes_[j], side_, along, scales_, crossings);
+    const double slope = edges_[j] ? edges_[j]->slope : 0;
+    extent.on = seen_on_plate(cloud_, stripes_[j], side_, along, slope, scales_, crossings);
     if (edges_[j] && edges_[j]->stripes > 1) {
       // What lies in the plate's plane farther from the seam than they tell its edge may be another
       // thing.
       PlateExtent beside = extent;
-      beside.on = seen_on_plate(cloud_, stripes_[j], side_, along, scales_, crossings,
+      beside.on = seen_on_plate(cloud_, stripes_[j], side_, along, slope, scales_, crossings,
                                 edges_[j]->clear_to + kEnds.beside_edge);
       if (possible(*edges_[j], beside, outward_)) return;
     }
-    extent = plate_extent(cloud_, stripes_[j], side_, along, scales_, crossings);
+    extent = plate_extent(cloud_, stripes_[j], side_, along, slope, scales_, crossings);
     if (edges_[j] && !possible(*edges_[j], extent, outward_)) edges_[j].reset();
     // Nor, where something is seen past the plate, does one that shows nothing of it behind what
     // may hide it.
     if (!intervals_[j].runs_on && std::isfinite(extent.past) && hidden(j, along))
       intervals_[j].outer = outward_ * std::numeric_limits<double>::infinity();
     // Where stripes cross the one plate's edge, they may leave this one unseen.
-    const double slant = edges_[1 - j] ? std::max(0.0, outward_ * stations_.slant[j]) : 0;
+    const double stripes_slant = edges_[1 - j] ? std::max(0.0, outward_ * stations_.slant[j]) : 0;
     if (!edges_[j])
       narrow(intervals_[j], extent, unsure_of(stations_, j),
-             kEnds.unseen * stations_.near[j] * slant, outward_);
+             kEnds.unseen * stations_.near[j] * stripes_slant, outward_);
   }
 
   // Of single stripes, the one that agrees with the other plate's edge.
@@ -220,7 +221,7 @@ class EndFinder {
       return std::nullopt;
     double reach = std::numeric_limits<double>::infinity();
     for (int j = 0; j < 2; ++j)
-      reach = std::min(reach, seen_on_plate(cloud_, stripes_[j], side_, end, scales_,
+      reach = std::min(reach, seen_on_plate(cloud_, stripes_[j], side_, end, 0, scales_,
                                             crossings_of(cloud_, stations_, j)));
     if (!(reach > outward_ * end + width)) return std::nullopt;
     return outward_ * reach;

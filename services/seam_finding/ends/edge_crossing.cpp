@@ -130,6 +130,7 @@ std::optional<EdgeCrossing> edge_crossing(const ScanCloud& cloud, const std::vec
                           : slant * step / std::sqrt(12.0);
     place.sharp = cut.has_value();
   }
+  place.falls = more && plate.plane.signed_distance(cloud.points[beyond]) < -2 * scales.tolerance;
   place.occluded = more && plate.plane.signed_distance(cloud.points[beyond]) > 2 * scales.tolerance;
   return place;
 }

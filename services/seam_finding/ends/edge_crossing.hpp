@@ -18,6 +18,7 @@ struct EdgeCrossing {
   double pixel = 0;    // what a pixel square to the edge is along the seam; mm, at a segment's end
   bool sharp = false;  // a segment ends there, or turns over the edge
   bool occluded = false;
+  bool falls = false;  // what the stripe shows next lies behind the plate: it has ended
 };
 
 // Of a plate's points in one stripe. Nothing where it goes on to the other plate, or runs along the

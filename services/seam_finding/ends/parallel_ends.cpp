@@ -152,7 +152,7 @@ SeamEnd find_parallel_end(const ScanCloud& cloud, const Joint& joint,
         return outward * joint.line.along(border.at(outward * place));
       };
       const PlateExtent extent =
-          plate_extent(cloud, stripes, side, border.along(joint.line.at(end.along)), scales);
+          plate_extent(cloud, stripes, side, border.along(joint.line.at(end.along)), 0, scales);
       // A stripe may miss the plate beside the border and show it farther off.
       if (std::isfinite(extent.on) && on_seam(extent.on) > plate_end.high) {
         const double next = first_without(stations[j], j, on_seam(extent.on), outward);

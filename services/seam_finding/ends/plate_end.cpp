@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <iterator>
 #include <numbers>
 #include <utility>
 #include <vector>
@@ -78,11 +79,19 @@ EdgeFit through_the_middle(const Places& places) {
   return kEnds.plainly * spread_about(places, askew) < spread ? askew : square;
 }
 
+struct Agreement {
+  Places places;
+  double weight = 0;
+};
+
+double weight_of(const EdgeCrossing& place) {
+  return kEnds.agree / (kEnds.agree + place.deviation);
+}
+
 // Places of one edge; several that are sharp tell a plate's edge also where it was not expected.
-Places largest_agreement(const Places& places, const EdgeWindow& window, double edge_slope) {
+Agreement largest_agreement(const Places& places, const EdgeWindow& window, double edge_slope) {
   const double most_slope = std::max(kVisibility.end_slope, edge_slope);
-  Places best;
-  double most = 0;
+  Agreement best;
   for (const EdgeCrossing& one : places) {
     if (one.along < window.from - window.beyond || one.along > window.to + window.beyond) continue;
     Places together;
@@ -93,13 +102,45 @@ Places largest_agreement(const Places& places, const EdgeWindow& window, double 
                                                           one.deviation, other.deviation);
       if (std::abs(one.along - other.along) > allowed) continue;
       together.push_back(other);
-      weight += kEnds.agree / (kEnds.agree + other.deviation);
+      weight += weight_of(other);
       sharp += other.sharp;
     }
     const bool expected = one.along >= window.from && one.along <= window.to;
-    if ((expected || sharp >= kEnds.sharp_beyond) && weight > most)
-      most = weight, best = std::move(together);
+    if ((expected || sharp >= kEnds.sharp_beyond) && weight > best.weight)
+      best = {std::move(together), weight};
   }
+  return best;
+}
+
+// As if the edge were square to the seam.
+Places sheared(Places places, double slope) {
+  for (EdgeCrossing& place : places) place.along -= slope * place.away;
+  return places;
+}
+
+// Of the edges through two places over which stripes fall off the plate, the one that most such
+// places tell; 0 for none. A shadow's edge, or a tool's outline, has the plate or the tool behind
+// it.
+double slope_told(const Places& all, const EdgeWindow& window) {
+  Places places;
+  std::copy_if(all.begin(), all.end(), std::back_inserter(places),
+               [](const EdgeCrossing& place) { return place.falls && place.sharp; });
+  double best = 0, most = 0;
+  for (const EdgeCrossing& a : places)
+    for (const EdgeCrossing& b : places) {
+      if (b.away - a.away < kEnds.direction_base) continue;
+      const double slope = (b.along - a.along) / (b.away - a.away);
+      const double foot = a.along - slope * a.away;
+      if (std::abs(slope) > kEnds.steepest || foot < window.from - window.beyond ||
+          foot > window.to + window.beyond)
+        continue;
+      double weight = 0;
+      int count = 0;
+      for (const EdgeCrossing& place : places)
+        if (std::abs(place.along - foot - slope * place.away) < kEnds.agree + 2 * place.deviation)
+          weight += weight_of(place), ++count;
+      if (count >= kEnds.slope_places && weight > most) most = weight, best = slope;
+    }
   return best;
 }
 
@@ -115,7 +156,16 @@ std::optional<PlateEdge> find_edge(const ScanCloud& cloud, const PlateStripes& s
     if (const auto place = edge_crossing(cloud, run, stripes, side, scales, settings))
       if (place->away < far && (place->sharp || place->away > kVisibility.near_seam))
         places.push_back(*place);
-  Places on_edge = largest_agreement(places, window, settings.edge_slope());
+  Agreement square = largest_agreement(places, window, settings.edge_slope());
+  double cut = slope_told(places, window);
+  if (cut != 0) {
+    Agreement slanted = largest_agreement(sheared(places, cut), window, settings.edge_slope());
+    if (slanted.weight > square.weight + kEnds.slanted)
+      square = std::move(slanted);
+    else
+      cut = 0;
+  }
+  Places on_edge = std::move(square.places);
   // What is seen of the plate before something else tells no more than that it reaches so far.
   const auto clear = [](const EdgeCrossing& place) { return place.sharp && !place.occluded; };
   if (2 * std::count_if(on_edge.begin(), on_edge.end(), clear) >=
@@ -145,6 +195,7 @@ std::optional<PlateEdge> find_edge(const ScanCloud& cloud, const PlateStripes& s
   }
   PlateEdge edge;
   edge.along = fit.at_seam;
+  edge.slope = cut;
   const auto mean = [&on_edge](double EdgeCrossing::*value) {
     double sum = 0;
     for (const EdgeCrossing& place : on_edge) sum += place.*value;

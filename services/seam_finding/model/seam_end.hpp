@@ -18,6 +18,7 @@ struct SeamEnd {
 
 struct PlateEdge {
   double along = 0;     // where it crosses the seam; mm
+  double slope = 0;     // along the seam for each mm away from it, where it is not cut square
   double variance = 0;  // mm2
   double away = 0;      // from the seam, of the mean of the places that tell it; mm
   double pixel = 0;     // what one square to the edge is along the seam, their mean; mm

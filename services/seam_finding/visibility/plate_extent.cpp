@@ -36,15 +36,15 @@ double usable_reach(const PlateStripes& stripes) {
 
 // The outermost place on the plate before `limit`, no farther than `reach` from the seam; mm
 // outward.
-double outermost(const ScanCloud& cloud, const PlateStripes& stripes, double outward, double noise,
-                 double limit, double reach) {
+double outermost(const ScanCloud& cloud, const PlateStripes& stripes, double outward, double slope,
+                 double noise, double limit, double reach) {
   const double slack = kVisibility.beam * noise;
   MostOfRuns on(cloud);
   for (const auto& run : stripes.runs)
     for (const int i : run) {
       const double r = stripes.away.dot(cloud.points[i] - stripes.line.point);
-      const double place =
-          outward * stripes.line.along(cloud.points[i]) - kVisibility.end_slope * r - slack;
+      const double place = outward * (stripes.line.along(cloud.points[i]) - slope * r) -
+                           kVisibility.end_slope * r - slack;
       if (r <= reach && place < limit) on.add(i, place);
     }
   return on.most();
@@ -64,8 +64,8 @@ bool on_plate_at(const ScanCloud& cloud, const PlateStripes& stripes, std::size_
 // farther than `far` from the seam, of each of the stripes about `near`; mm outward, infinite where
 // nothing is.
 std::vector<double> first_past(const ScanCloud& cloud, const PlateStripes& stripes, double outward,
-                               double near, double from, double far, const Scales& scales,
-                               const StripeCrossings& crossings) {
+                               double near, double slope, double from, double far,
+                               const Scales& scales, const StripeCrossings& crossings) {
   const Line& line = stripes.line;
   const double slack = kVisibility.beam * scales.noise;
   std::vector<double> places(cloud.stripes.size(), std::numeric_limits<double>::infinity());
@@ -82,7 +82,8 @@ std::vector<double> first_past(const ScanCloud& cloud, const PlateStripes& strip
       const auto through = seen_through(cloud, stripes.plate.plane, i, scales.tolerance);
       if (!through) continue;
       const double r = stripes.away.dot(*through - line.point);
-      const double place = outward * line.along(*through) + kVisibility.end_slope * r + slack;
+      const double place =
+          outward * (line.along(*through) - slope * r) + kVisibility.end_slope * r + slack;
       if (r <= kVisibility.near_seam || r >= far) continue;
       if (place > from) past.add(i, -place);
       if (k >= crossings.along.size() || !crossings.along[k]) continue;
@@ -90,7 +91,7 @@ std::vector<double> first_past(const ScanCloud& cloud, const PlateStripes& strip
       const double crossing =
           outward * *crossings.along[k] +
           slant * std::max(0.0, slant > 0 ? r + kVisibility.askew : r - kVisibility.askew) +
-          kVisibility.end_slope * r + slack;
+          (kVisibility.end_slope - outward * slope) * r + slack;
       if (crossing <= from || on_plate_at(cloud, stripes, k, r)) continue;
       beside.add(i, -crossing);
       fall_from = std::min(fall_from, r), fall_to = std::max(fall_to, r);
@@ -104,15 +105,15 @@ std::vector<double> first_past(const ScanCloud& cloud, const PlateStripes& strip
 }  // namespace
 
 double seen_on_plate(const ScanCloud& cloud, const PlateStripes& stripes, SeamSide side,
-                     double near, const Scales& scales, const StripeCrossings& crossings,
-                     double reach) {
+                     double near, double slope, const Scales& scales,
+                     const StripeCrossings& crossings, double reach) {
   const double outward = side == SeamSide::kEnd ? 1 : -1;
   reach = std::min(reach, usable_reach(stripes));
-  const double most = outermost(cloud, stripes, outward, scales.noise,
+  const double most = outermost(cloud, stripes, outward, slope, scales.noise,
                                 std::numeric_limits<double>::infinity(), reach);
   if (most < outward * near + kVisibility.goes_on) return most;
   std::vector<double> places =
-      first_past(cloud, stripes, outward, near, outward * near,
+      first_past(cloud, stripes, outward, near, slope, outward * near,
                  std::min(kVisibility.close, reach - kVisibility.far_edge), scales, crossings);
   std::sort(places.begin(), places.end());
   double past = places[0];
@@ -120,16 +121,18 @@ double seen_on_plate(const ScanCloud& cloud, const PlateStripes& stripes, SeamSi
   if (places.size() > 1 && places[1] > past + kVisibility.lone_stripe) past = places[1];
   if (past > most) return most;
   // Another thing lies in the plate's plane, and may do so from before the plate's end.
-  return outermost(cloud, stripes, outward, scales.noise, past, std::min(kVisibility.close, reach));
+  return outermost(cloud, stripes, outward, slope, scales.noise, past,
+                   std::min(kVisibility.close, reach));
 }
 
 PlateExtent plate_extent(const ScanCloud& cloud, const PlateStripes& stripes, SeamSide side,
-                         double near, const Scales& scales, const StripeCrossings& crossings) {
+                         double near, double slope, const Scales& scales,
+                         const StripeCrossings& crossings) {
   PlateExtent extent;
   if (!cloud.organised()) return extent;
-  extent.on = seen_on_plate(cloud, stripes, side, near, scales, crossings);
+  extent.on = seen_on_plate(cloud, stripes, side, near, slope, scales, crossings);
   const std::vector<double> past =
-      first_past(cloud, stripes, side == SeamSide::kEnd ? 1 : -1, near, extent.on,
+      first_past(cloud, stripes, side == SeamSide::kEnd ? 1 : -1, near, slope, extent.on,
                  usable_reach(stripes) - kVisibility.far_edge, scales, crossings);
   extent.past = *std::min_element(past.begin(), past.end());
   return extent;

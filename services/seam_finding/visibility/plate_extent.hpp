@@ -22,16 +22,19 @@ struct StripeCrossings {
 // Stripes cross a plate at a slant: one that lies on it shows how far it reaches at the stripe's
 // farthest place, not only where it crosses the seam. And a point that is seen behind the plate's
 // plane is seen past the plate: its line of sight meets the plane where no plate is. Both hold at
-// the seam but for how square the plate is cut. Where the stripes' crossings of the line are given,
+// the seam along the plate's edge, whose `slope` along the seam for each mm away is known to a
+// hundredth. Where the stripes' crossings of the line are given,
 // a stripe that falls behind the plate tells that none is where it crosses the plate's plane. What
 // lies in that plane beyond a place that is seen past is another thing. Looks at the stripes about
 // `near`, a place on the plate, along the line; mm. Nothing is known in a cloud without stripes.
 PlateExtent plate_extent(const ScanCloud& cloud, const PlateStripes& stripes, SeamSide side,
-                         double near, const Scales& scales, const StripeCrossings& crossings = {});
+                         double near, double slope, const Scales& scales,
+                         const StripeCrossings& crossings = {});
 // The first of the two alone, at much less cost; from what lies no farther than `reach` from the
 // seam, mm.
 double seen_on_plate(const ScanCloud& cloud, const PlateStripes& stripes, SeamSide side,
-                     double near, const Scales& scales, const StripeCrossings& crossings = {},
+                     double near, double slope, const Scales& scales,
+                     const StripeCrossings& crossings = {},
                      double reach = std::numeric_limits<double>::infinity());
 
 }  // namespace arcstart::seam_finding

@@ -90,7 +90,7 @@ TEST_CASE("a reflection in one of the stripes behind what hides a seam does not 
   CHECK(std::abs(course.begin) < 4);
   CHECK(std::abs(course.end - 120) < 4);
   const auto stripes = plate_stripes(bench.cloud, bench.plates, bench.line, kBenchScales);
-  CHECK(seen_on_plate(bench.cloud, stripes[0], SeamSide::kEnd, 40, kBenchScales) > 116);
+  CHECK(seen_on_plate(bench.cloud, stripes[0], SeamSide::kEnd, 40, 0, kBenchScales) > 116);
 }
 
 TEST_CASE("a start that is hidden lies where both plates are seen to begin beyond what hides it") {
@@ -109,9 +109,9 @@ TEST_CASE("what lies in a plate's plane beyond a place that is seen past is no p
   const Bench bench =
       bench_of({box_at({0, -8, 10}, {120, 0, 50}), box_at({140, 12, 0}, {180, 40, 10})});
   const auto stripes = plate_stripes(bench.cloud, bench.plates, bench.line, kBenchScales);
-  CHECK(seen_on_plate(bench.cloud, stripes[0], SeamSide::kEnd, 120, kBenchScales) < 120.5);
-  CHECK(seen_on_plate(bench.cloud, stripes[0], SeamSide::kEnd, 120, kBenchScales) > 116);
-  CHECK(plate_extent(bench.cloud, stripes[0], SeamSide::kEnd, 120, kBenchScales).past > 119.5);
+  CHECK(seen_on_plate(bench.cloud, stripes[0], SeamSide::kEnd, 120, 0, kBenchScales) < 120.5);
+  CHECK(seen_on_plate(bench.cloud, stripes[0], SeamSide::kEnd, 120, 0, kBenchScales) > 116);
+  CHECK(plate_extent(bench.cloud, stripes[0], SeamSide::kEnd, 120, 0, kBenchScales).past > 119.5);
 }
 
 TEST_CASE("a thing as high as a plate that touches its end does not prolong it") {

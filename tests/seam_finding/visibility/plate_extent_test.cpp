@@ -49,7 +49,7 @@ const Scales kScales = scales_of_test(2, 0.5, 0);
 PlateExtent extent_of(const ScanCloud& cloud) {
   const auto plates = plates_of(cloud);
   return plate_extent(cloud, plate_stripes(cloud, plates[0], plates[1], kSeam, kScales),
-                      SeamSide::kBegin, 0, kScales);
+                      SeamSide::kBegin, 0, 0, kScales);
 }
 
 }  // namespace
@@ -127,11 +127,11 @@ TEST_CASE("light that falls past a plate bounds it, whatever else lies in its pl
       cloud.points[i] = {cloud.points[i].x() + 8, cloud.points[i].y(), 0};
   const auto plates = plates_of(cloud);
   const auto stripes = plate_stripes(cloud, plates[0], plates[1], kSeam, kScales);
-  const double on = seen_on_plate(cloud, stripes, SeamSide::kBegin, 0, kScales, crossings);
+  const double on = seen_on_plate(cloud, stripes, SeamSide::kBegin, 0, 0, kScales, crossings);
   // The stripe at 1.5 is the first on the plate, the one at -2.5 the last that falls past it.
   CHECK(on < 2.5);
   CHECK(on > -2.5);
-  CHECK(seen_on_plate(cloud, stripes, SeamSide::kBegin, 0, kScales) > 6);
+  CHECK(seen_on_plate(cloud, stripes, SeamSide::kBegin, 0, 0, kScales) > 6);
 }
 
 TEST_CASE("without stripes nothing is known") {
