@@ -67,21 +67,23 @@ bool set_trace(const Frame& frame, const StripeLight& light, const Eigen::Vector
   return std::abs(stripe.lean) < kReferee.flattest;
 }
 
+// scratch: keeps its memory from stripe to stripe, for fresh memory costs more than the places.
 void add_places(const ScanCloud& cloud, const std::vector<int>& points, const Frame& frame,
-                const StripeLight& light, StripeOnPlate& stripe) {
+                const StripeLight& light, std::vector<Place>& scratch, StripeOnPlate& stripe) {
   const ScanStripe& seen = cloud.stripes[stripe.stripe];
   const auto first = std::lower_bound(points.begin(), points.end(), seen.first);
   const auto behind = std::lower_bound(first, points.end(), seen.first + seen.count);
-  stripe.places.reserve(static_cast<std::size_t>(behind - first));
+  scratch.clear();
   const LightOver over{light.source, frame.plane.signed_distance(light.source)};
   Place place;
   for (auto i = first; i != behind; ++i) {
     if (!set_place(frame, over, cloud.points[*i], place)) continue;
     const PointOrigin& origin = cloud.origins[*i];
     place.ends = origin.segment_end, place.point = *i, place.segment = origin.segment;
-    stripe.places.push_back(place);
+    scratch.push_back(place);
   }
-  sort_by(&Place::away, stripe.places);
+  sort_by(&Place::away, scratch);
+  stripe.places = scratch;
 }
 
 // Of half the stripes at the middle of the seam that nothing covers: the first of two places in a
@@ -141,13 +143,15 @@ PlateView view_of(const ScanCloud& cloud, const std::vector<int>& points,
   view.plate = seam.faces[plate];
   const Frame frame = frame_of(seam, view.plate);
   const double length = (seam.end - seam.start).norm();
+  view.stripes.reserve(lights.size());
+  std::vector<Place> scratch;
   for (std::size_t k = 0; k < lights.size(); ++k) {
     if (!lights[k]) continue;
     StripeOnPlate stripe;
     stripe.stripe = static_cast<int>(k);
     if (!set_trace(frame, *lights[k], cloud.stripes[k].camera_centre, stripe)) continue;
     if (stripe.crossing < -kReferee.beyond || stripe.crossing > length + kReferee.beyond) continue;
-    add_places(cloud, points, frame, *lights[k], stripe);
+    add_places(cloud, points, frame, *lights[k], scratch, stripe);
     view.stripes.push_back(std::move(stripe));
   }
   std::sort(view.stripes.begin(), view.stripes.end(),
