@@ -34,8 +34,7 @@ void set_looks(const PlateShape& shape, double begin, StripeOnPlate& stripe, dou
 // thinned out, or its image has few pixels.
 void fill_in(StripeOnPlate& stripe) {
   std::vector<Place> places = stripe.places;
-  std::sort(places.begin(), places.end(),
-            [](const Place& a, const Place& b) { return a.point < b.point; });
+  sort_by(&Place::point, places);
   const std::size_t seen = stripe.places.size();
   for (std::size_t i = 1; i < places.size(); ++i) {
     const Place &a = places[i - 1], &b = places[i];
@@ -52,8 +51,7 @@ void fill_in(StripeOnPlate& stripe) {
     }
   }
   if (stripe.places.size() == seen) return;
-  std::sort(stripe.places.begin(), stripe.places.end(),
-            [](const Place& a, const Place& b) { return a.away < b.away; });
+  sort_by(&Place::away, stripe.places);
 }
 
 // A single place at the plate's height beside what stands on the plate is on that thing's flank.

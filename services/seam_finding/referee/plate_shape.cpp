@@ -14,6 +14,7 @@ constexpr int kFewest = 4 * kTerms;  // places
 constexpr double kRidge =
     1e-6;  // beside sums of order 1 to 1000: nothing, unless they tell nothing
 using Terms = Eigen::Matrix<double, kTerms, 1>;
+using Square = Eigen::Matrix<double, kTerms, kTerms>;
 
 // Numbers of order 1, for the equations' sake.
 struct Scale {
@@ -26,19 +27,47 @@ struct Scale {
   }
 };
 
+// A place as the fit needs it.
+struct ShapePlace {
+  Terms terms;
+  double height, away;  // mm
+  double residual;      // over the shape as it was fitted last; mm
+};
+
 // Between the ends and in the strip, near the plane; evenly thinned out to some thousand.
-std::vector<Place> places_within(const PlateView& view, double length, const Scale& scale) {
-  std::vector<Place> all;
+std::vector<ShapePlace> places_within(const PlateView& view, double length, const Scale& scale) {
+  std::vector<const Place*> all;
   for (const StripeOnPlate& stripe : view.stripes)
     for (const Place& place : stripe.places)
       if (place.along > 0 && place.along < length && place.away > scale.begin &&
           place.away < scale.begin + scale.width && std::abs(place.height) < 2 * kReferee.bend)
-        all.push_back(place);
+        all.push_back(&place);
   const std::size_t step = all.size() / kReferee.shape_places + 1;
-  std::vector<Place> some;
-  for (std::size_t i = 0; i < all.size(); i += step) some.push_back(all[i]);
+  std::vector<ShapePlace> some;
+  some.reserve(all.size() / step + 1);
+  for (std::size_t i = 0; i < all.size(); i += step)
+    some.push_back({scale.terms(*all[i]), all[i]->height, all[i]->away, all[i]->height});
   return some;
 }
+
+// Normal equations of the places no farther off than `cut`.
+struct Sums {
+  Square matrix = kRidge * Square::Identity();
+  Terms right = Terms::Zero();
+  int count = 0;
+
+  Sums(const std::vector<ShapePlace>& places, double cut) {
+    for (const ShapePlace& place : places) {
+      if (std::abs(place.residual) > cut) continue;
+      for (int column = 0; column < kTerms; ++column)
+        for (int row = column; row < kTerms; ++row)
+          matrix(row, column) += place.terms(row) * place.terms(column);
+      right += place.height * place.terms;
+      ++count;
+    }
+    matrix.triangularView<Eigen::StrictlyUpper>() = matrix.transpose();
+  }
+};
 
 // From places so far away from where the plate begins, in a strip so wide; mm.
 PlateShape shape_within(const PlateView& view, double length, double from, double width) {
@@ -46,32 +75,22 @@ PlateShape shape_within(const PlateView& view, double length, double from, doubl
   Scale scale{length / 2, length / 2, view.begin + from, width};
   shape.tolerance = kReferee.most_tolerance;
   shape.middle = scale.middle, shape.half = scale.half;
-  const std::vector<Place> places = places_within(view, length, scale);
+  std::vector<ShapePlace> places = places_within(view, length, scale);
   Terms solution = Terms::Zero();
-  double cut = kReferee.bend, squares = 0;
-  Eigen::Matrix<double, kTerms, kTerms> inverse;
+  double cut = kReferee.bend;
+  Square inverse;
   int count = 0;
   for (int pass = 0; pass < 4; ++pass) {
-    Eigen::Matrix<double, kTerms, kTerms> matrix =
-        kRidge * Eigen::Matrix<double, kTerms, kTerms>::Identity();
-    Terms right = Terms::Zero();
-    count = 0;
-    for (const Place& place : places) {
-      const Terms terms = scale.terms(place);
-      if (std::abs(place.height - solution.dot(terms)) > cut) continue;
-      matrix += terms * terms.transpose();
-      right += place.height * terms;
-      ++count;
-    }
+    const Sums sums(places, cut);
+    count = sums.count;
     if (count < kFewest) return shape;
-    inverse = matrix.inverse();
-    solution = inverse * right;
-    squares = 0;
-    double kept = 0, farthest = 0;
-    for (const Place& place : places) {
-      const double residual = place.height - solution.dot(scale.terms(place));
-      if (std::abs(residual) > cut) continue;
-      squares += residual * residual, ++kept;
+    inverse = sums.matrix.inverse();
+    solution = inverse * sums.right;
+    double squares = 0, kept = 0, farthest = 0;
+    for (ShapePlace& place : places) {
+      place.residual = place.height - solution.dot(place.terms);
+      if (std::abs(place.residual) > cut) continue;
+      squares += place.residual * place.residual, ++kept;
       farthest = std::max(farthest, place.away);
     }
     shape.noise = std::sqrt(squares / std::max(1.0, kept - kTerms));

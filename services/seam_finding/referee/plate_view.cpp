@@ -25,21 +25,26 @@ Frame frame_of(const SeamResult& seam, const SeamPlate& plate) {
   return frame;
 }
 
-// Where the light to a point meets the plane; nothing where it does not, or in too flat an angle.
-std::optional<Place> place_of(const Frame& frame, const StripeLight& light,
-                              const Eigen::Vector3d& point) {
-  Place place;
+// The light of one stripe, over a plate.
+struct LightOver {
+  Eigen::Vector3d source;
+  double height;  // of the source; mm
+};
+
+// Where the light to a point meets the plane; false where it does not, or in too flat an angle.
+bool set_place(const Frame& frame, const LightOver& light, const Eigen::Vector3d& point,
+               Place& place) {
   place.height = frame.plane.signed_distance(point);
   Eigen::Vector3d at = point - place.height * frame.plane.normal;
   if (std::abs(place.height) > kReferee.bend) {
-    const double source = frame.plane.signed_distance(light.source);
-    const double share = source / (source - place.height);  // of the way to the point
-    if (!std::isfinite(share) || share <= 0) return std::nullopt;
+    const double share = light.height / (light.height - place.height);  // of the way to the point
+    if (!std::isfinite(share) || share <= 0) return false;
     at = light.source + share * (point - light.source);
   }
-  place.along = frame.along.dot(at - frame.origin);
   place.away = frame.away.dot(at - frame.origin);
-  return place;
+  if (place.away < -kReferee.across_seam || place.away > kReferee.reach) return false;
+  place.along = frame.along.dot(at - frame.origin);
+  return true;
 }
 
 // Along the seam for each mm toward the plate, of a ray from there to a place on it.
@@ -62,20 +67,23 @@ bool set_trace(const Frame& frame, const StripeLight& light, const Eigen::Vector
   return std::abs(stripe.lean) < kReferee.flattest;
 }
 
+// scratch: keeps its memory from stripe to stripe, for fresh memory costs more than the places.
 void add_places(const ScanCloud& cloud, const std::vector<int>& points, const Frame& frame,
-                const StripeLight& light, StripeOnPlate& stripe) {
+                const StripeLight& light, std::vector<Place>& scratch, StripeOnPlate& stripe) {
   const ScanStripe& seen = cloud.stripes[stripe.stripe];
-  for (auto i = std::lower_bound(points.begin(), points.end(), seen.first);
-       i != points.end() && *i < seen.first + seen.count; ++i) {
-    const auto place = place_of(frame, light, cloud.points[*i]);
-    if (!place || place->away < -kReferee.across_seam || place->away > kReferee.reach) continue;
-    stripe.places.push_back(*place);
-    stripe.places.back().ends = cloud.origins[*i].segment_end;
-    stripe.places.back().point = *i;
-    stripe.places.back().segment = cloud.origins[*i].segment;
+  const auto first = std::lower_bound(points.begin(), points.end(), seen.first);
+  const auto behind = std::lower_bound(first, points.end(), seen.first + seen.count);
+  scratch.clear();
+  const LightOver over{light.source, frame.plane.signed_distance(light.source)};
+  Place place;
+  for (auto i = first; i != behind; ++i) {
+    if (!set_place(frame, over, cloud.points[*i], place)) continue;
+    const PointOrigin& origin = cloud.origins[*i];
+    place.ends = origin.segment_end, place.point = *i, place.segment = origin.segment;
+    scratch.push_back(place);
   }
-  std::sort(stripe.places.begin(), stripe.places.end(),
-            [](const Place& a, const Place& b) { return a.away < b.away; });
+  sort_by(&Place::away, scratch);
+  stripe.places = scratch;
 }
 
 // Of half the stripes at the middle of the seam that nothing covers: the first of two places in a
@@ -135,13 +143,15 @@ PlateView view_of(const ScanCloud& cloud, const std::vector<int>& points,
   view.plate = seam.faces[plate];
   const Frame frame = frame_of(seam, view.plate);
   const double length = (seam.end - seam.start).norm();
+  view.stripes.reserve(lights.size());
+  std::vector<Place> scratch;
   for (std::size_t k = 0; k < lights.size(); ++k) {
     if (!lights[k]) continue;
     StripeOnPlate stripe;
     stripe.stripe = static_cast<int>(k);
     if (!set_trace(frame, *lights[k], cloud.stripes[k].camera_centre, stripe)) continue;
     if (stripe.crossing < -kReferee.beyond || stripe.crossing > length + kReferee.beyond) continue;
-    add_places(cloud, points, frame, *lights[k], stripe);
+    add_places(cloud, points, frame, *lights[k], scratch, stripe);
     view.stripes.push_back(std::move(stripe));
   }
   std::sort(view.stripes.begin(), view.stripes.end(),

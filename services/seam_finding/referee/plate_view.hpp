@@ -1,6 +1,7 @@
 // What each stripe shows where a plate is claimed: the plate, something behind it, or before it.
 #pragma once
 
+#include <algorithm>
 #include <array>
 #include <optional>
 #include <vector>
@@ -26,6 +27,17 @@ struct Place {
   bool ends = false;             // a segment of the stripe ends with it
   int point = -1, segment = -1;  // of the cloud, and of the stripe
 };
+
+// Rising by one of their numbers. Along a stripe places mostly come in order already, or the other
+// way round: looking is cheaper than sorting.
+template <class Number>
+void sort_by(Number Place::*number, std::vector<Place>& places) {
+  const auto before = [number](const Place& a, const Place& b) { return a.*number < b.*number; };
+  if (places.size() > 1 && before(places.back(), places.front()))
+    std::reverse(places.begin(), places.end());
+  if (!std::is_sorted(places.begin(), places.end(), before))
+    std::sort(places.begin(), places.end(), before);
+}
 
 // What a stripe shows of a plate right beside the seam.
 enum class AtSeam : char {
