@@ -111,6 +111,12 @@ SeamResult find_seam(const ScanCloud& cloud, const Segmentation& segmentation,
   Findings findings = measure(cloud, *choice.joint, scales, settings);
   SeamResult result = describe(std::move(*choice.joint), std::move(findings), settings);
   result.alternatives = std::move(choice.alternatives);
+  const double length = (result.end - result.start).norm();
+  if (length < settings.seam_length_min_mm) {
+    SeamResult shorter = refused({Code::kSeamTooShort, length, settings.seam_length_min_mm});
+    shorter.alternatives = std::move(result.alternatives);
+    return shorter;
+  }
   return result;
 }
 

@@ -74,6 +74,9 @@ struct SeamFindingSettings {
   double approach_mm = 100;            // from the start back along the torch
 
   // When to refuse.
+  // A shorter seam is none: the edge of a block, of a clamp's jaw, of a bar's end. EN 1993-1-8,
+  // 4.5.1: a fillet weld of less than 30 mm carries no load. 0: any length.
+  double seam_length_min_mm = 30;
   int stripes_min = 5;  // with points of both plates at the seam
   double ambiguity_ratio =
       1.5;  // a second joint whose score comes within this factor makes it ambiguous
@@ -117,6 +120,7 @@ struct SeamFindingSettings {
     visitor("torch_work_angle_deg", torch_work_angle_deg, between(0, 150));
     visitor("torch_travel_angle_deg", torch_travel_angle_deg, between(-45, 45));
     visitor("approach_mm", approach_mm, between(10, 1000));
+    visitor("seam_length_min_mm", seam_length_min_mm, between(0, 1000));
     visitor("stripes_min", stripes_min, between(3, 1000));
     visitor("ambiguity_ratio", ambiguity_ratio, between(1, 10));
     visitor("lost_share_max", lost_share_max, between(0, 0.5));

@@ -23,6 +23,8 @@ std::string about_a_joint(const Reason& reason) {
       return "its edge is not convex";
     case Code::kEdgeOfOnePlate:
       return "it is the edge of one plate";
+    case Code::kEdgeOfBlock:
+      return "it is the edge of a solid block";
     case Code::kTooMuchElse:
       return "too much else lies around it";
     case Code::kFewStripesCross:
@@ -36,7 +38,7 @@ std::string about_a_joint(const Reason& reason) {
     case Code::kButtNotWanted:
       return "a butt joint is not wanted";
     case Code::kGrooveNotWanted:
-      return "a groove is not wanted";
+      return "it is a groove";
     case Code::kLapThickness:
       return fmt::format("its step is {:.1f} mm", reason.number);
     case Code::kUpperPlateNarrow:
@@ -128,6 +130,15 @@ std::string about_no_seam(const Reason& reason) {
       return fmt::format(
           "the stripes contradict the seam that was found: a plate is round, its radius {:.0f} mm",
           reason.number);
+    case Code::kCornerRound:
+      return fmt::format(
+          "the stripes contradict the seam that was found: its corner is round, its radius {:.1f} "
+          "mm: one piece, rolled or bent, or welded already",
+          reason.number);
+    case Code::kSeamTooShort:
+      return fmt::format(
+          "the seam that was found is {:.0f} mm long, none shorter than {:.0f} mm is wanted",
+          reason.number, reason.of);
     default:
       return about_a_joint(reason);
   }

@@ -45,6 +45,20 @@ struct JointConstants {
   // mm; beyond the seam's ends, what its planes are fitted to - bench.
   double overhang = 3;
 
+  // mm; behind both plates of an outside corner, what lies deeper is no plate's cut - as wide as
+  // the thickest plate, of 20 mm, and its edge's place.
+  double thickest_plate = 22;
+  // rad; of a plate's cut from square to the seam, at most - cuts up to 31 deg.
+  double most_cut_turn = 35 * kDegree;
+  // Share of an end's face that lies so deep, at least, where the body is solid - bench.
+  double least_solid = 0.1;
+
+  // rad; between a groove's side and its plate's top - ISO 9692-1: sides of 5 to 60 deg to the
+  // top's normal.
+  double least_top_fold = 30 * kDegree, most_top_fold = 85 * kDegree;
+  // rad; between a seam and the edge along it - a plate tapers by less.
+  double same_course = 10 * kDegree;
+
   // Parallel plates: the bench's rows are lap, butt and v.
 
   // mm; crossings of faces so near a joint of parallel plates are part of it - bench.

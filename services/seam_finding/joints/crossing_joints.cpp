@@ -7,21 +7,13 @@
 #include "common/geometry.hpp"
 #include "services/seam_finding/coverage/coverage.hpp"
 #include "services/seam_finding/fit/order_statistics.hpp"
+#include "services/seam_finding/joints/block_edge.hpp"
 #include "services/seam_finding/joints/constants.hpp"
+#include "services/seam_finding/joints/contact.hpp"
+#include "services/seam_finding/joints/groove_faces.hpp"
 
 namespace arcstart::seam_finding {
 namespace {
-
-bool touches(const ScanCloud& cloud, const std::vector<int>& points, const Line& line,
-             double distance) {
-  return std::any_of(points.begin(), points.end(),
-                     [&](int i) { return line.distance(cloud.points[i]) <= distance; });
-}
-
-// A face with points far apart is at the seam though none comes very near it.
-double contact_of(const Face& face, const Scales& scales) {
-  return std::max(scales.contact, 2 * face.spacing);
-}
 
 Eigen::Vector3d middle(const ScanCloud& cloud, const std::vector<int>& points) {
   Eigen::Vector3d sum = Eigen::Vector3d::Zero();
@@ -191,6 +183,18 @@ std::optional<Joint> pair_up(const ScanCloud& cloud, const std::vector<int>& lef
   return joint;
 }
 
+// What else than a joint the faces around the two show it to be; none where they do not.
+Reason other_thing(const ScanCloud& cloud, const std::vector<Face>& faces, const Joint& joint,
+                   const Scales& scales, const SeamFindingSettings& settings) {
+  if (joint.type == JointType::kOutsideCorner)
+    return is_edge_of_block(cloud, faces, joint, scales) ? Reason{Reason::Code::kEdgeOfBlock}
+                                                         : Reason{};
+  const double parallel = settings.parallel_tolerance_deg * kDegree;
+  return are_sides_of_groove(cloud, faces, joint, parallel, scales)
+             ? Reason{Reason::Code::kGrooveNotWanted}
+             : Reason{};
+}
+
 }  // namespace
 
 std::vector<Face> turned_to_sensor(const ScanCloud& cloud, std::vector<Face> faces) {
@@ -221,8 +225,10 @@ std::vector<Joint> find_crossing_joints(const ScanCloud& cloud, const std::vecto
   std::vector<Joint> joints;
   for (int a = 0; a < static_cast<int>(faces.size()); ++a)
     for (int b = a + 1; b < static_cast<int>(faces.size()); ++b)
-      if (auto joint = pair_up(cloud, left, faces, a, b, type, scales, settings))
+      if (auto joint = pair_up(cloud, left, faces, a, b, type, scales, settings)) {
+        if (!joint->flaw) joint->flaw = other_thing(cloud, faces, *joint, scales, settings);
         joints.push_back(std::move(*joint));
+      }
   return joints;
 }
 

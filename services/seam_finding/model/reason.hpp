@@ -14,6 +14,7 @@ struct Reason {
     kNotConcave,       // of a tee or an inside corner
     kNotConvex,        // of an outside corner
     kEdgeOfOnePlate,   // no outside corner: the other plate is the edge face of the first
+    kEdgeOfBlock,      // no outside corner: its end shows metal where two plates leave none
     kTooMuchElse,      // around it
     kFewStripesCross,  // number: stripes that cross both plates
     kShortlySeen,      // number: both plates; mm
@@ -57,6 +58,8 @@ struct Reason {
     kPlateNotShown,   // hardly a point lies where a plate is claimed
     kPlateTurned,     // number: a plate's tilt against what is claimed; rad
     kPlateRound,      // number: radius; mm
+    kCornerRound,     // number: radius of an outside corner; mm
+    kSeamTooShort,    // number, of: its length, and the least that is wanted; mm
 
     // What a person should know of a seam that was found.
     kMissingBeforeStart,  // number: stripes

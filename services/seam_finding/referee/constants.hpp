@@ -76,6 +76,18 @@ struct RefereeConstants {
   double narrow = 15;
   // mm; what is narrower is no plate - an end face of sheet.
   double narrowest = 4.5;
+  // mm; away from the seam, beyond it an outside corner's plate is no cut - as wide as the thickest
+  // plate, of 20 mm, and its edge's place.
+  double widest_cut = 22;
+  // mm; of a stripe on such a plate that shows nothing, at most: then the plate has ended -
+  // dropouts.
+  double plate_gap = 4;
+  // Of the stripes at an outside corner that show a plate beside it, those that must show it so far
+  // away as well - bench.
+  double wide_share = 0.4;
+  // Of a round corner's radius, what its arc keeps off the planes' line, at least: 0.41 at 90 deg,
+  // 0.15 at 120; and the differences of the radii seen, at most, quartile to quartile - bench.
+  double round_clearance = 0.3, one_radius = 0.3;
   // mm; from where a plate is claimed to begin, a stripe leaves it no farther off - bench.
   double edge_off = 1.0;
   // mm; between neighbouring places of a stripe on a plate, at most - M of 15 in steep sight.

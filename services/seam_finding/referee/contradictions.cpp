@@ -5,6 +5,7 @@
 #include <optional>
 
 #include "services/seam_finding/referee/constants.hpp"
+#include "services/seam_finding/referee/quantile.hpp"
 
 namespace arcstart::seam_finding {
 namespace {
@@ -40,6 +41,41 @@ Reason at_edge(const SeamEdges& edges) {
   return {};
 }
 
+// Away from the seam, how far a stripe shows the plate without a break; -1 where not at all.
+// Nothing where something before the plate breaks it.
+std::optional<double> unbroken(const PlateView& view, const StripeOnPlate& stripe) {
+  double last = view.begin + kReferee.beside_seam, reached = -1;
+  int others = 0;  // in a row
+  for (const Place& place : stripe.places) {
+    if (place.away < view.begin + kReferee.beside_seam) continue;
+    if (place.look == Look::kBefore && place.away - last < kReferee.plate_gap) return std::nullopt;
+    if (place.look == Look::kBefore || place.away - last > kReferee.plate_gap) break;
+    others = place.look == Look::kOn ? 0 : others + 1;
+    if (others == kReferee.others_in_a_row) break;
+    if (place.look == Look::kOn) reached = last = place.away;
+  }
+  return reached;
+}
+
+// An outside corner's plates are wide. The cuts of two plates that end together lie in one plane,
+// too, and reach far on an angle's other leg: but at the seam they are as narrow as a plate is
+// thick.
+Reason of_cut(const PlateView& view, double length) {
+  std::vector<double> reaches;
+  int shown = 0, wide = 0;
+  for (const StripeOnPlate& stripe : view.stripes) {
+    if (!within(stripe, 0, length) || stripe.at_seam == AtSeam::kOff) continue;
+    const auto reach = unbroken(view, stripe);
+    if (reach && *reach < 0) continue;
+    ++shown;
+    wide += !reach || *reach >= kReferee.widest_cut;
+    if (reach) reaches.push_back(*reach);
+  }
+  if (shown >= kReferee.shown_stripes && wide < kReferee.wide_share * shown)
+    return {Code::kPlateTooNarrow, quantile_of(reaches, 0.5)};
+  return {};
+}
+
 // Stripes at the seam, between its claimed ends: both plates there, one of them not.
 Reason along(const std::array<PlateView, 2>& views, double length, double spacing) {
   int both = 0, not_both = 0;
@@ -61,6 +97,8 @@ Reason along(const std::array<PlateView, 2>& views, double length, double spacin
 
 }  // namespace
 
+bool is_outside_corner(const SeamResult& seam) { return seam.joint_type == "outside_corner"; }
+
 Reason contradiction_of(const SeamResult& seam, const std::array<PlateView, 2>& views,
                         const std::array<PlateShape, 2>& shapes,
                         const std::array<std::optional<SeamEdges>, 2>& edges, double spacing) {
@@ -76,6 +114,9 @@ Reason contradiction_of(const SeamResult& seam, const std::array<PlateView, 2>& 
   for (int j = 0; j < 2; ++j)
     if (edges[j])
       if (const Reason reason = at_edge(*edges[j])) return reason;
+  if (is_outside_corner(seam))
+    for (const PlateView& view : views)
+      if (const Reason reason = of_cut(view, length)) return reason;
   return along(views, length, spacing);
 }
 

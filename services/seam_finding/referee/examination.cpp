@@ -5,6 +5,7 @@
 
 #include "services/seam_finding/referee/constants.hpp"
 #include "services/seam_finding/referee/contradictions.hpp"
+#include "services/seam_finding/referee/corner/corner_radius.hpp"
 #include "services/seam_finding/referee/plate_looks.hpp"
 #include "services/seam_finding/referee/quantile.hpp"
 #include "services/seam_finding/referee/stripe_light.hpp"
@@ -79,6 +80,11 @@ Examination examine(const ScanCloud& cloud, const SeamResult& seam) {
   examination.explained = explained_by(views, length);
   examination.contradiction =
       contradiction_of(seam, views, examination.shapes, examination.edges, examination.spacing);
+  if (!examination.contradiction && is_outside_corner(seam))
+    if (const auto radius = corner_radius(
+            cloud, points, seam,
+            std::max(examination.shapes[0].tolerance, examination.shapes[1].tolerance)))
+      examination.contradiction = {Reason::Code::kCornerRound, *radius};
   for (const SeamSide side : {SeamSide::kBegin, SeamSide::kEnd}) {
     const bool start = side == SeamSide::kBegin;
     const double end = start ? 0 : length;

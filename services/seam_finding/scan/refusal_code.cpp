@@ -17,6 +17,8 @@ std::int16_t refusal_code(const Reason& reason) {
       return seam_t::NOT_CONVEX;
     case Code::kEdgeOfOnePlate:
       return seam_t::EDGE_OF_ONE_PLATE;
+    case Code::kEdgeOfBlock:
+      return seam_t::EDGE_OF_BLOCK;
     case Code::kTooMuchElse:
       return seam_t::CLUTTERED;
     case Code::kFewStripesCross:
@@ -83,6 +85,10 @@ std::int16_t refusal_code(const Reason& reason) {
       return seam_t::PLATE_TURNED;
     case Code::kPlateRound:
       return seam_t::PLATE_ROUND;
+    case Code::kCornerRound:
+      return seam_t::CORNER_ROUND;
+    case Code::kSeamTooShort:
+      return seam_t::SEAM_TOO_SHORT;
     case Code::kNoJoint:
       return refusal_code({reason.because, reason.number});
     default:

@@ -43,7 +43,7 @@ std::string cases() {
 // By the stripes: refused for what they show, or they show an end elsewhere.
 bool is_contradicted(const seam_t& seam) {
   const bool refused =
-      seam.refusal >= seam_t::SEAM_NOT_SHOWN && seam.refusal <= seam_t::PLATE_IS_EDGE;
+      seam.refusal >= seam_t::SEAM_NOT_SHOWN && seam.refusal <= seam_t::CORNER_ROUND;
   return refused || seam.start_second_weight > 0 || seam.end_second_weight > 0;
 }
 

@@ -138,3 +138,33 @@ TEST_CASE("a seam along which one of the plates is missing is contradicted") {
   CHECK(reason.code == Code::kSeamNotShown);
   CHECK(reason.number < 0.6 * reason.of);
 }
+
+TEST_CASE("an outside corner's plate that is a cut, its far leg seen as well, contradicts it") {
+  const Height cut = [](double away) { return away < 0 || away > 9.5 ? kDeep : 0; };
+  const Height with_leg = [](double away) {
+    return away < 0 || (away > 9.5 && away < 25) || away > 34 ? kDeep : 0;
+  };
+  // The cuts of two plates, an angle: here and there a stripe runs on down the other leg.
+  const auto angle = [&](const Height& whole) {
+    PlateView view = view_of(with_leg);
+    const PlateView narrow = view_of(cut), wide = view_of(whole);
+    for (std::size_t k = 0; k < view.stripes.size(); ++k) {
+      if (k % 3 == 0) view.stripes[k] = narrow.stripes[k];
+      if (k % 4 == 1) view.stripes[k] = wide.stripes[k];
+    }
+    return view;
+  };
+  CHECK(judged("outside_corner", view_of(flat), view_of(flat)).reason.code == Code::kNone);
+  const Reason reason = judged("outside_corner", view_of(flat), angle(flat)).reason;
+  CHECK(reason.code == Code::kPlateTooNarrow);
+  CHECK(reason.number == Approx(9.5).margin(1));
+  // A tee's upright may be a flat bar.
+  CHECK(judged("tee", view_of(flat), angle(flat)).reason.code == Code::kNone);
+}
+
+TEST_CASE("what stands before an outside corner's plate does not make it narrow") {
+  const Height barred = [](double away) {
+    return away < 0 ? kDeep : away > 9 && away < 17 ? 12 : 0;
+  };
+  CHECK(judged("outside_corner", view_of(flat), view_of(barred)).reason.code == Code::kNone);
+}

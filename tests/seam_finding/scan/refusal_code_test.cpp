@@ -33,7 +33,7 @@ TEST_CASE("each reason for which no seam is given has a code of its own in a ran
     CHECK(codes.insert(refusal).second);
   };
   for_each_code(Code::kPlatesDoNotTouch, Code::kPlateNarrow, take);
-  for_each_code(Code::kNoCloud, Code::kPlateRound, take);
+  for_each_code(Code::kNoCloud, Code::kSeamTooShort, take);
 }
 
 TEST_CASE("a best pair that is no joint is refused by what it lacks") {

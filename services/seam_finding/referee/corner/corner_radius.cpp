@@ -1,0 +1,61 @@
+#include "services/seam_finding/referee/corner/corner_radius.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "services/seam_finding/referee/constants.hpp"
+#include "services/seam_finding/referee/quantile.hpp"
+
+namespace arcstart::seam_finding {
+namespace {
+
+// What a stripe shows around the corner.
+struct AroundCorner {
+  double nearest = std::numeric_limits<double>::infinity();  // to the seam's line; mm
+  std::vector<double> radii;  // of the arc through each point behind both planes; mm
+};
+
+// Of the circle that touches both planes and goes through a point so deep behind them: taken for
+// square to each other, as an outside corner's plates nearly are.
+double radius_through(double first, double second) {
+  return first + second + std::sqrt(2 * first * second);
+}
+
+}  // namespace
+
+std::optional<double> corner_radius(const ScanCloud& cloud, const std::vector<int>& points,
+                                    const SeamResult& seam, double tolerance) {
+  const double length = (seam.end - seam.start).norm();
+  std::vector<AroundCorner> stripes(cloud.stripes.size());
+  for (const int i : points) {
+    const Eigen::Vector3d from_start = cloud.points[i] - seam.start;
+    const double along = seam.direction.dot(from_start);
+    const double off = (from_start - along * seam.direction).norm();
+    if (along < 0 || along > length || off > kReferee.farthest_begin) continue;
+    AroundCorner& stripe = stripes[cloud.origins[i].stripe];
+    stripe.nearest = std::min(stripe.nearest, off);
+    const double first = -seam.faces[0].plane.signed_distance(cloud.points[i]),
+                 second = -seam.faces[1].plane.signed_distance(cloud.points[i]);
+    if (first > tolerance && second > tolerance)
+      stripe.radii.push_back(radius_through(first, second));
+  }
+  int seen = 0;
+  std::vector<double> radii;
+  for (AroundCorner& stripe : stripes) {
+    if (!std::isfinite(stripe.nearest)) continue;
+    ++seen;
+    if (stripe.radii.empty()) continue;
+    const double radius = quantile_of(stripe.radii, 0.5);
+    if (stripe.nearest > kReferee.round_clearance * radius) radii.push_back(radius);
+  }
+  if (static_cast<int>(radii.size()) < kReferee.shown_stripes ||
+      static_cast<double>(radii.size()) < kReferee.shown_share * seen)
+    return std::nullopt;
+  const double radius = quantile_of(radii, 0.5);
+  const double spread = quantile_of(radii, 0.75) - quantile_of(radii, 0.25);
+  if (spread > kReferee.one_radius * radius) return std::nullopt;
+  return radius;
+}
+
+}  // namespace arcstart::seam_finding
