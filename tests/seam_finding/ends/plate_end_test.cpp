@@ -13,14 +13,15 @@ namespace {
 
 // A plate in z = 0 from x = begin to 100 and y = 0 to 40, its seam along the x axis; stripes every
 // 3.6 mm cross it at a slant, thinned out to every fifteenth of their centres a tenth of a
-// millimetre apart, and end a pixel's fraction before its edges.
+// millimetre apart, and end a pixel's fraction before its edges. next: the height over the plate of
+// what a stripe shows next; 0 for nothing.
 struct Made {
   ScanCloud cloud;
   JointPlate plate, other;
   Line line{{0, 0, 0}, {1, 0, 0}};
 };
 
-Made make(double begin, double slant, bool something_before, unsigned seed) {
+Made make(double begin, double slant, double next, unsigned seed) {
   std::mt19937 engine(seed);
   std::normal_distribution<double> noise(0, 0.02);
   std::uniform_real_distribution<double> phase(0, 0.1);
@@ -42,8 +43,7 @@ Made make(double begin, double slant, bool something_before, unsigned seed) {
         made.plate.points.push_back(made.cloud.size());
         add(centres[i], 0, i == 0 || i + 1 == centres.size());
       }
-    if (something_before && !centres.empty())
-      add(centres.back() + Eigen::Vector3d(-1, 1, 9), 1, true);
+    if (next != 0 && !centres.empty()) add(centres.back() + Eigen::Vector3d(-1, 1, next), 1, true);
     end_stripe(made.cloud, ScanStripe::Seen::kSeen, {x, 100, 200}, {x, 0, 0});
   }
   return made;
@@ -65,7 +65,7 @@ TEST_CASE("the edge of a plate is found to a fraction of the stripes' distance")
     int within = 0;
     for (unsigned seed = 1; seed <= 20; ++seed) {
       const double begin = 0.17 * seed;
-      const Made made = make(begin, slant, false, seed);
+      const Made made = make(begin, slant, 0, seed);
       const auto edge = edge_of(made, SeamSide::kBegin, {begin - 3, begin + 3, 0}, 0.15);
       REQUIRE(edge);
       CHECK(edge->along == Approx(begin).margin(0.15));
@@ -80,8 +80,8 @@ TEST_CASE("the edge of a plate is found to a fraction of the stripes' distance")
 }
 
 TEST_CASE("stripes square to the seam cross no edge; what lies before a plate hides its edge") {
-  CHECK_FALSE(edge_of(make(0, 0, false, 1), SeamSide::kBegin, {-3, 3, 0}, 0.5));
-  const Made hidden = make(2, 0.3, true, 3);
+  CHECK_FALSE(edge_of(make(0, 0, 0, 1), SeamSide::kBegin, {-3, 3, 0}, 0.5));
+  const Made hidden = make(2, 0.3, 9, 3);
   const auto edge = edge_of(hidden, SeamSide::kBegin, {-1, 5, 0}, 0.5);
   REQUIRE(edge);
   CHECK(edge->occluded);
@@ -89,7 +89,7 @@ TEST_CASE("stripes square to the seam cross no edge; what lies before a plate hi
 
 TEST_CASE("a stripe that ends behind something before the edge is no place of it") {
   // Few stripes cross the edge; the one next to the seam is hidden from 0.8 mm before it on.
-  Made made = make(2, 0.3, false, 4);
+  Made made = make(2, 0.3, 0, 4);
   int last = -1;
   for (const int i : made.plate.points)
     if (made.cloud.origins[i].segment_end && made.line.along(made.cloud.points[i]) < 2.5 &&
@@ -115,7 +115,7 @@ TEST_CASE("a stripe that ends behind something before the edge is no place of it
 }
 
 TEST_CASE("a stripe whose light ends too early draws no edge to it") {
-  Made made = make(2, 0.4, false, 6);
+  Made made = make(2, 0.4, 0, 6);
   const EdgeWindow window{-1, 5, 0};
   const double shortening_px = 0.03;
   const auto as_made = edge_of(made, SeamSide::kBegin, window, shortening_px);
@@ -134,7 +134,7 @@ TEST_CASE("a stripe whose light ends too early draws no edge to it") {
 
 TEST_CASE("a place where a stripe crosses an edge flatly counts for little") {
   const auto variance = [](double slant) {
-    const Made made = make(2, slant, false, 7);
+    const Made made = make(2, slant, 0, 7);
     const auto edge = edge_of(made, SeamSide::kBegin, {-1, 5, 0}, 0.03);
     REQUIRE(edge);
     return edge->variance * edge->stripes;
@@ -179,7 +179,7 @@ TEST_CASE("of two edges the first counts, or both of flush plates, as far as eit
 }
 
 TEST_CASE("an edge out of square is found where enough stripes cross it") {
-  Made made = make(2, 0.4, false, 8);
+  Made made = make(2, 0.4, 0, 8);
   for (Eigen::Vector3d& point : made.cloud.points) point.x() += 0.015 * point.y();
   const auto edge = edge_of(made, SeamSide::kBegin, {-1, 5, 0}, 0.03);
   REQUIRE(edge);
@@ -187,8 +187,34 @@ TEST_CASE("an edge out of square is found where enough stripes cross it") {
   CHECK(edge->along == Approx(2).margin(0.08));
 }
 
+TEST_CASE(
+    "an edge cut at a slant is found by what falls over it, and known as well as it is told") {
+  for (const double slope : {-0.45, -0.2, 0.1, 0.2}) {
+    int within = 0;
+    for (unsigned seed = 1; seed <= 20; ++seed) {
+      const double begin = 1 + 0.13 * seed;
+      Made made = make(begin, 0.4, -10, seed);
+      for (Eigen::Vector3d& point : made.cloud.points) point.x() += slope * point.y();
+      const auto edge = edge_of(made, SeamSide::kBegin, {begin - 3, begin + 3, 0}, 0.15);
+      INFO("slope " << slope << ", seed " << seed);
+      REQUIRE(edge);
+      CHECK(edge->slope == Approx(slope).margin(0.02));
+      CHECK(edge->along == Approx(begin).margin(0.3));
+      within += std::pow(edge->along - begin, 2) <= 4 * edge->variance;
+    }
+    CHECK(within >= 17);
+  }
+}
+
+TEST_CASE("a slanting edge behind which nothing is seen may be a shadow's") {
+  Made made = make(2, 0.4, 0, 9);
+  for (Eigen::Vector3d& point : made.cloud.points) point.x() += 0.3 * point.y();
+  const auto edge = edge_of(made, SeamSide::kBegin, {-1, 5, 0}, 0.15);
+  CHECK((!edge || edge->slope == 0));
+}
+
 TEST_CASE("there is no edge where none is expected, nor in a cloud without stripes") {
-  const Made made = make(2, 0.3, false, 5);
+  const Made made = make(2, 0.3, 0, 5);
   CHECK_FALSE(edge_of(made, SeamSide::kBegin, {40, 46, 0}, 0.5));
   Made loose = made;
   loose.cloud.stripes.clear();
