@@ -90,6 +90,9 @@ struct JointConstants {
   std::size_t cut_points = 6;
   // An edge face's points over what lies on the plates - bench.
   double off_plate = 1.25;
+  // mm out for each mm across; of a straight run on a plate against the face that holds it, at most:
+  // a face that is laid through two plates a tolerance apart lies less askew - bench.
+  double steepest_run = 0.1;
   // mm; from the line, where a narrow gap is sought - bench.
   double gap_reach = 4;
   // rad; of an edge face from the plate's normal, at least, where it is a groove's - bench.

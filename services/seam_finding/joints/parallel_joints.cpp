@@ -9,6 +9,7 @@
 #include "services/seam_finding/fit/plane_fit.hpp"
 #include "services/seam_finding/joints/constants.hpp"
 #include "services/seam_finding/joints/parallel_edges.hpp"
+#include "services/seam_finding/joints/straight_runs.hpp"
 #include "services/seam_finding/joints/transitions.hpp"
 
 namespace arcstart::seam_finding {
@@ -270,7 +271,9 @@ std::vector<Joint> find_parallel_joints(const ScanCloud& cloud, const std::vecto
     for (int b = a; b < static_cast<int>(faces.size()); ++b) {
       if (!parallel(faces[a], faces[b], settings.parallel_tolerance_deg * kDegree)) continue;
       const auto all =
-          transitions_between(cloud, sections, face_of, faces, a, b, near_plate(scales));
+          a == b && cloud.organised()
+              ? transitions_within(cloud, sections, frame, face_of, a, b, near_plate(scales))
+              : transitions_between(cloud, sections, face_of, faces, a, b, near_plate(scales));
       for (const bool rising : {true, false}) {
         if (a == b && !rising) continue;
         std::vector<Transition> transitions;
