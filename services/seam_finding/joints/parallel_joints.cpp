@@ -143,8 +143,37 @@ void set_butt_or_groove(const TransitionLine& candidate, const ParallelEdges& ed
     joint.flaw = {groove ? Code::kGrooveNotWanted : Code::kButtNotWanted};
   else if (groove && seam.half_angle > half_angle_max)
     joint.flaw = {Code::kGrooveAngle, 2 * seam.half_angle};
-  else if (width > (groove ? settings.v_width_max_mm : settings.butt_gap_max_mm) || width < 0)
+  else if (width > (groove ? settings.v_width_max_mm : settings.butt_gap_max_mm) ||
+           width < -kJoints.overlap)
     joint.flaw = {Code::kGapWidth, width};
+}
+
+// Between the plates' edges something is seen that lies below both: there the lower one ends, too.
+bool lower_plate_ends(const ScanCloud& cloud, const TransitionLine& candidate,
+                      const std::array<Plane, 2>& planes, double near_mm) {
+  const auto sees_below = [&](const Transition& transition) {
+    return std::any_of(transition.between.begin(), transition.between.end(), [&](int i) {
+      return std::max(planes[0].signed_distance(cloud.points[i]),
+                      planes[1].signed_distance(cloud.points[i])) < -2 * near_mm &&
+             !cloud.origins[i].segment_end;
+    });
+  };
+  const auto& all = candidate.transitions;
+  return static_cast<double>(std::count_if(all.begin(), all.end(), sees_below)) >=
+         kJoints.seen_below * static_cast<double>(all.size());
+}
+
+// A step between the tops is a lap's or a mismatch: by its height alone where both are wanted, else
+// as the one that is asked for may have it.
+bool is_lap(const ScanCloud& cloud, const TransitionLine& candidate,
+            const std::array<Plane, 2>& planes, double step, double near_mm,
+            const SeamFindingSettings& settings) {
+  const bool flush = is_wanted(JointType::kButt, settings) || is_wanted(JointType::kV, settings);
+  const bool lap = is_wanted(JointType::kLap, settings);
+  if (lap && !flush && step < settings.lap_thickness_min_mm)
+    return step >= kJoints.least_step && !lower_plate_ends(cloud, candidate, planes, near_mm);
+  if (flush && !lap) return step >= std::max(settings.lap_thickness_min_mm, kJoints.most_mismatch);
+  return step >= settings.lap_thickness_min_mm;
 }
 
 // What joint the plates' edges make. False where they have none that is straight.
@@ -161,7 +190,7 @@ bool set_type(const ScanCloud& cloud, const TransitionLine& candidate, const Sca
   const double step = planes[0].signed_distance(place) - planes[1].signed_distance(place);
   const double width = second.across_at(middle.middle) - first.across_at(middle.middle);
   joint.parallel.emplace().seam = middle;
-  if (std::abs(step) >= settings.lap_thickness_min_mm)
+  if (is_lap(cloud, candidate, planes, std::abs(step), near_plate(scales), settings))
     return set_lap(cloud, candidate, edges, scales, settings, step, width, joint);
   set_butt_or_groove(candidate, edges, settings, width, joint);
   return true;
