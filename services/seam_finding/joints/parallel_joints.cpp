@@ -25,6 +25,24 @@ bool is_wanted(JointType type, const SeamFindingSettings& settings) {
   return std::find(wanted.begin(), wanted.end(), type) != wanted.end();
 }
 
+// The first and the last of the sections that the transitions lie in.
+std::pair<int, int> sections_of(const std::vector<Transition>& transitions) {
+  const auto [first, last] = std::minmax_element(
+      transitions.begin(), transitions.end(),
+      [](const Transition& a, const Transition& b) { return a.section < b.section; });
+  return {first->section, last->section};
+}
+
+// Where one face holds two plates at unlike heights, a plate that goes on behind the other's end
+// lies on the other's side, too: there it is not the other plate.
+void keep_own_height(const ScanCloud& cloud, double near_mm, std::array<JointPlate, 2>& plates) {
+  for (int j = 0; j < 2; ++j)
+    std::erase_if(plates[j].points, [&](int i) {
+      return std::abs(plates[j].plane.signed_distance(cloud.points[i])) >
+             std::abs(plates[1 - j].plane.signed_distance(cloud.points[i])) + 2 * near_mm;
+    });
+}
+
 // A plate's points on its own side of its border, and the plane through those near it.
 JointPlate plate_of(const ScanCloud& cloud, const TransitionLine& candidate, const Face& face,
                     int plate, double across_of_line, double slope, double contact) {
@@ -33,11 +51,15 @@ JointPlate plate_of(const ScanCloud& cloud, const TransitionLine& candidate, con
   result.contact = contact;
   result.away = outward * candidate.frame.across;
   PlaneSums sums(candidate.frame.origin);
+  const auto [first, last] = sections_of(candidate.transitions);
   for (const int i : face.points) {
     const Eigen::Vector3d p = candidate.frame.of(cloud.points[i]);
     const double away = outward * (p.y() - across_of_line - slope * p.x());
     if (away < 0) continue;
     result.points.push_back(i);
+    // Beyond the seam's ends another plate may lie on this side.
+    const int stripe = cloud.origins[i].stripe;
+    if (cloud.organised() && (stripe < first || stripe > last)) continue;
     if (away < kPlanes.fit_reach && !cloud.origins[i].segment_end) sums.add(cloud.points[i]);
   }
   result.plane = face.plane;
@@ -151,16 +173,11 @@ void set_butt_or_groove(const TransitionLine& candidate, const ParallelEdges& ed
 // Between the plates' edges something is seen that lies below both: there the lower one ends, too.
 bool lower_plate_ends(const ScanCloud& cloud, const TransitionLine& candidate,
                       const std::array<Plane, 2>& planes, double near_mm) {
-  const auto sees_below = [&](const Transition& transition) {
-    return std::any_of(transition.between.begin(), transition.between.end(), [&](int i) {
-      return std::max(planes[0].signed_distance(cloud.points[i]),
-                      planes[1].signed_distance(cloud.points[i])) < -2 * near_mm &&
-             !cloud.origins[i].segment_end;
-    });
-  };
   const auto& all = candidate.transitions;
-  return static_cast<double>(std::count_if(all.begin(), all.end(), sees_below)) >=
-         kJoints.seen_below * static_cast<double>(all.size());
+  return static_cast<double>(
+             std::count_if(all.begin(), all.end(), [&](const Transition& transition) {
+               return sees_below(cloud, transition, planes, near_mm);
+             })) >= kJoints.seen_below * static_cast<double>(all.size());
 }
 
 // A step between the tops is a lap's or a mismatch: by its height alone where both are wanted, else
@@ -263,6 +280,7 @@ std::optional<Joint> joint_at(const ScanCloud& cloud, const std::vector<Face>& f
   for (int j = 0; j < 2; ++j)
     joint.plates[j] = plate_of(cloud, candidate, faces[candidate.faces[j]], j, rough->across_at(0),
                                rough->slope, scales.contact);
+  if (joint.faces[0] == joint.faces[1]) keep_own_height(cloud, near_plate(scales), joint.plates);
   if (joint.plates[0].points.empty() || joint.plates[1].points.empty()) return std::nullopt;
   if (!set_type(cloud, candidate, scales, settings, joint)) return std::nullopt;
   for (int j = 0; j < 2; ++j)
