@@ -101,7 +101,8 @@ struct JointConstants {
   double gap_noise = 0.06;
   // mm across for each mm down; of the sight into a gap, at least - bench.
   double least_gap_sight = 0.15;
-  // mm; between the tops of a butt joint's plates, at most, where its gap is fitted - bench.
+  // mm; between the tops of a butt joint's plates, at most, where its gap is fitted or their faces
+  // are taken together - bench.
   double one_level = 1;
   // mm; of a step between two plates, where a lap alone is wanted: at least, so that waves and
   // bends make none. Sheet metal is thinner only in bodies and cabinets - bench, whose sheets are

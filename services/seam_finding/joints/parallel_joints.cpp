@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numeric>
 
 #include "services/seam_finding/coverage/coverage.hpp"
 #include "services/seam_finding/coverage/parallel_stations.hpp"
@@ -295,31 +296,76 @@ bool parallel(const Face& a, const Face& b, double tolerance) {
   return angle_between(a.plane.normal, b.plane.normal) < 2 * tolerance;
 }
 
-}  // namespace
+// Half of a face's points are no farther from another's plane than plates side by side may be.
+bool level_with(const ScanCloud& cloud, const Face& face, const Plane& plane) {
+  std::vector<double> off;
+  for (const int i : face.points) off.push_back(std::abs(plane.signed_distance(cloud.points[i])));
+  return quantile(off, 0.5) < kJoints.one_level;
+}
 
-std::vector<Joint> find_parallel_joints(const ScanCloud& cloud, const std::vector<Face>& faces,
-                                        const Scales& scales, const SeamFindingSettings& settings) {
-  std::vector<Joint> joints;
-  const auto way = search_direction(cloud);
-  if (!way) return joints;
+// Two plates side by side at one level may have been laid out as a face that holds a part of both,
+// and one that holds the rest. Such faces together, for each group of two or more.
+std::vector<Face> level_faces(const ScanCloud& cloud, const std::vector<Face>& faces,
+                              double tolerance) {
+  std::vector<int> group(faces.size());
+  std::iota(group.begin(), group.end(), 0);
+  for (std::size_t a = 0; a < faces.size(); ++a)
+    for (std::size_t b = a + 1; b < faces.size(); ++b)
+      if (parallel(faces[a], faces[b], tolerance) && level_with(cloud, faces[a], faces[b].plane) &&
+          level_with(cloud, faces[b], faces[a].plane))
+        std::replace(group.begin(), group.end(), group[b], group[a]);
+  std::vector<Face> together;
+  for (int g = 0; g < static_cast<int>(faces.size()); ++g) {
+    if (std::count(group.begin(), group.end(), g) < 2) continue;
+    Face face;
+    std::size_t most = 0;
+    for (std::size_t f = 0; f < faces.size(); ++f) {
+      if (group[f] != g) continue;
+      face.points.insert(face.points.end(), faces[f].points.begin(), faces[f].points.end());
+      if (faces[f].points.size() > most) most = faces[f].points.size(), face.plane = faces[f].plane;
+    }
+    std::sort(face.points.begin(), face.points.end());
+    together.push_back(std::move(face));
+  }
+  return together;
+}
+
+std::vector<int> face_of_points(const ScanCloud& cloud, const std::vector<Face>& faces) {
   std::vector<int> face_of(cloud.points.size(), -1);
   for (int f = 0; f < static_cast<int>(faces.size()); ++f)
     for (const int i : faces[f].points) face_of[i] = f;
-  for (int a = 0; a < static_cast<int>(faces.size()); ++a) {
-    const Plane& plane = faces[a].plane;
-    const Eigen::Vector3d along = *way - way->dot(plane.normal) * plane.normal;
-    if (along.norm() < 0.5) continue;
-    PlateFrame frame;
-    frame.origin = cloud.points[faces[a].points[faces[a].points.size() / 2]];
-    frame.along = along.normalized();
-    frame.normal = plane.normal;
-    frame.across = frame.normal.cross(frame.along);
-    const auto sections = sections_across(cloud, frame, scales.spacing);
-    for (int b = a; b < static_cast<int>(faces.size()); ++b) {
+  return face_of;
+}
+
+// Axes in the face, along the search; nothing where that leads out of it.
+std::optional<PlateFrame> frame_of(const ScanCloud& cloud, const Face& face,
+                                   const Eigen::Vector3d& way) {
+  const Eigen::Vector3d& normal = face.plane.normal;
+  const Eigen::Vector3d along = way - way.dot(normal) * normal;
+  if (along.norm() < 0.5) return std::nullopt;
+  PlateFrame frame;
+  frame.origin = cloud.points[face.points[face.points.size() / 2]];
+  frame.along = along.normalized();
+  frame.normal = normal;
+  frame.across = frame.normal.cross(frame.along);
+  return frame;
+}
+
+// The joints between each face and those behind it in the list, where `pairs`, and within each.
+void add_joints(const ScanCloud& cloud, const std::vector<Face>& faces, bool pairs,
+                const Eigen::Vector3d& way, const Scales& scales,
+                const SeamFindingSettings& settings, std::vector<Joint>& joints) {
+  const std::vector<int> face_of = face_of_points(cloud, faces);
+  const int count = static_cast<int>(faces.size());
+  for (int a = 0; a < count; ++a) {
+    const auto frame = frame_of(cloud, faces[a], way);
+    if (!frame) continue;
+    const auto sections = sections_across(cloud, *frame, scales.spacing);
+    for (int b = a; b < (pairs ? count : a + 1); ++b) {
       if (!parallel(faces[a], faces[b], settings.parallel_tolerance_deg * kDegree)) continue;
       const auto all =
           a == b && cloud.organised()
-              ? transitions_within(cloud, sections, frame, face_of, a, b, near_plate(scales))
+              ? transitions_within(cloud, sections, *frame, face_of, a, b, near_plate(scales))
               : transitions_between(cloud, sections, face_of, faces, a, b, near_plate(scales));
       for (const bool rising : {true, false}) {
         if (a == b && !rising) continue;
@@ -327,9 +373,9 @@ std::vector<Joint> find_parallel_joints(const ScanCloud& cloud, const std::vecto
         for (const Transition& transition : all)
           if (transition.rising == rising || a == b) transitions.push_back(transition);
         TransitionLine candidate;
-        candidate.frame = frame;
+        candidate.frame = *frame;
         candidate.faces = rising ? std::array<int, 2>{a, b} : std::array<int, 2>{b, a};
-        candidate.transitions = on_one_line(cloud, frame, transitions);
+        candidate.transitions = on_one_line(cloud, *frame, transitions);
         if (candidate.transitions.empty()) continue;
         candidate.share = share_of_sections(cloud, sections, candidate.transitions);
         if (auto joint = joint_at(cloud, faces, candidate, scales, settings))
@@ -337,6 +383,19 @@ std::vector<Joint> find_parallel_joints(const ScanCloud& cloud, const std::vecto
       }
     }
   }
+}
+
+}  // namespace
+
+std::vector<Joint> find_parallel_joints(const ScanCloud& cloud, const std::vector<Face>& faces,
+                                        const Scales& scales, const SeamFindingSettings& settings) {
+  std::vector<Joint> joints;
+  const auto way = search_direction(cloud);
+  if (!way) return joints;
+  add_joints(cloud, faces, true, *way, scales, settings, joints);
+  if (cloud.organised())
+    add_joints(cloud, level_faces(cloud, faces, settings.parallel_tolerance_deg * kDegree), false,
+               *way, scales, settings, joints);
   return joints;
 }
 
