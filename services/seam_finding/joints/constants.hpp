@@ -111,6 +111,8 @@ struct JointConstants {
   // mm; and where a butt joint or a groove alone is wanted: the tops' mismatch, at most. - ISO
   // 5817, 507: by level D a quarter of the thickness, of plates of 8 mm.
   double most_mismatch = 2;
+  // mm; from both borders of a gap, where what a stripe shows is between the plates - bench.
+  double off_border = 0.6;
   // mm; by which the edges of plates that touch seem to overlap, at most - bench.
   double overlap = 0.5;
   // Share of the stripes that are seen to go on below the lower plate, where it ends - bench.

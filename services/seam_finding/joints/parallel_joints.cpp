@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <numeric>
 
 #include "services/seam_finding/coverage/coverage.hpp"
@@ -240,6 +241,36 @@ void judge(const ScanCloud& cloud, const TransitionLine& candidate, const Scales
     joint.flaw = {Code::kShortlySeen, joint.coverage.covered};
 }
 
+// A stripe that goes straight on across a gap runs over what lies flush beyond the seam's end, as a
+// run-off tab: what it shows is neither plate. A bead between the plates is not as flat.
+void leave_out_what_runs_across(const ScanCloud& cloud, const Scales& scales, Joint& joint) {
+  if (!cloud.organised() || joint.type == JointType::kLap) return;
+  const std::array<Line, 2>& edges = joint.parallel->edges;
+  const Eigen::Vector3d across = joint.plates[1].away;
+  struct Between {
+    int count = 0;
+    double least = std::numeric_limits<double>::infinity(), most = -least;
+  };
+  std::vector<Between> stripes(cloud.stripes.size());
+  for (int i = 0; i < cloud.size(); ++i) {
+    const Eigen::Vector3d& p = cloud.points[i];
+    const double along = edges[0].along(p);
+    const double from = across.dot(p - edges[0].at(along)),
+                 to = across.dot(edges[1].at(edges[1].along(p)) - p);
+    if (from < kJoints.off_border || to < kJoints.off_border) continue;
+    Between& between = stripes[cloud.origins[i].stripe];
+    const double height = joint.plates[from > to ? 1 : 0].plane.signed_distance(p);
+    ++between.count;
+    between.least = std::min(between.least, height), between.most = std::max(between.most, height);
+  }
+  const auto runs_across = [&](int i) {
+    const Between& between = stripes[cloud.origins[i].stripe];
+    return between.count >= kModel.sure_points && between.least > -scales.tolerance &&
+           between.most < scales.tolerance && between.most - between.least < 2 * near_plate(scales);
+  };
+  for (JointPlate& plate : joint.plates) std::erase_if(plate.points, runs_across);
+}
+
 // In the middle of the scan's way a plate that a stripe leaves is there for the width alone.
 void measure_gaps(const ScanCloud& cloud, const TransitionLine& candidate, Joint& joint) {
   ParallelSeam& flat = *joint.parallel;
@@ -287,6 +318,8 @@ std::optional<Joint> joint_at(const ScanCloud& cloud, const std::vector<Face>& f
   for (int j = 0; j < 2; ++j)
     joint.plates[j].away =
         (j == 0 ? -1 : 1) * candidate.frame.normal.cross(joint.line.direction).normalized();
+  leave_out_what_runs_across(cloud, scales, joint);
+  if (joint.plates[0].points.empty() || joint.plates[1].points.empty()) return std::nullopt;
   judge(cloud, candidate, scales, settings, joint);
   if (!joint.flaw) measure_gaps(cloud, candidate, joint);
   return joint;
