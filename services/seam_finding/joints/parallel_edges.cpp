@@ -91,18 +91,21 @@ double step_at(const ScanCloud& cloud, const Transition& transition,
 // stretch the lower plate's end is put. Returns, by plate, how long the stretch is on the average.
 std::array<double, 2> beside_a_step(const ScanCloud& cloud,
                                     const std::vector<Transition>& transitions,
-                                    const std::array<Plane, 2>& planes, double near_mm,
-                                    std::array<std::vector<LinePlace>, 2>& ends) {
+                                    const PlateFrame& frame, const std::array<Plane, 2>& planes,
+                                    double near_mm, std::array<std::vector<LinePlace>, 2>& ends) {
   std::array<double, 2> hidden{};
   for (std::size_t k = 0; k < transitions.size(); ++k) {
     const double step = step_at(cloud, transitions[k], planes);
     if (std::abs(step) < 2 * near_mm || sees_below(cloud, transitions[k], planes, near_mm))
       continue;
     const int lower = step > 0 ? 0 : 1;
-    const double width = ends[1][k].across - ends[0][k].across;
-    const double stretch = std::clamp(width, 0.0, kJoints.step_shadow * std::abs(step));
+    const double most = kJoints.step_shadow * std::abs(step);
+    const double stretch = std::clamp(ends[1][k].across - ends[0][k].across, 0.0, most);
     ends[lower][k].across += (lower == 0 ? 0.5 : -0.5) * stretch;
-    hidden[lower] += stretch / static_cast<double>(transitions.size());
+    // Between two points that follow each other nothing is seen, either.
+    const double unseen = frame.of(cloud.points[transitions[k].first]).y() -
+                          frame.of(cloud.points[transitions[k].last]).y();
+    hidden[lower] += std::clamp(unseen, 0.0, most) / static_cast<double>(transitions.size());
   }
   return hidden;
 }
@@ -201,7 +204,7 @@ ParallelEdges edges_of(const ScanCloud& cloud, const std::vector<Transition>& tr
     for (const Transition& transition : transitions)
       ends[plate].push_back(
           end_place(cloud, transition, frame, plate, follower(cloud, transition, plate), pitch_mm));
-  const auto hidden = beside_a_step(cloud, transitions, planes, near_mm, ends);
+  const auto hidden = beside_a_step(cloud, transitions, frame, planes, near_mm, ends);
   for (int plate = 0; plate < 2; ++plate) {
     std::vector<LinePlace> cut, ends_on_cut;
     double deepest = 0;
@@ -254,9 +257,19 @@ std::optional<LapRoot> lap_root(const ScanCloud& cloud, const std::vector<Transi
                                 int upper, double step_mm, double near_mm, double pitch_mm) {
   std::vector<LinePlace> cut, ends;
   const Plane& lower = planes[1 - upper];
+  const double outward = upper == 0 ? 1 : -1;  // of the cut, across
+  const auto faces_away = [&](int i) {
+    return outward * frame.across.dot(cloud.seen_from(i) - cloud.points[i]) < 0;
+  };
+  const bool away = 2 * std::count_if(transitions.begin(), transitions.end(),
+                                      [&](const auto& t) { return faces_away(t.last); }) >
+                    std::ssize(transitions);
   for (const Transition& transition : transitions) {
     for (const int i : transition.between) {
       const double height = lower.signed_distance(cloud.points[i]);
+      // A cut that faces away from the camera is not seen: what lies between is the step's
+      // rounding.
+      if (outward * frame.across.dot(cloud.seen_from(i) - cloud.points[i]) < 0) continue;
       if (height < kJoints.off_plate * near_mm || height > step_mm - kJoints.off_plate * near_mm ||
           cloud.origins[i].segment_end)
         continue;
@@ -269,8 +282,8 @@ std::optional<LapRoot> lap_root(const ScanCloud& cloud, const std::vector<Transi
         end_place(cloud, transition, frame, upper, follower(cloud, transition, upper), pitch_mm));
   }
   if (cut.size() >= kJoints.cut_points)
-    if (const auto fit = fit_line(cut, kJoints.square_cut)) return LapRoot{*fit, true};
-  if (const auto fit = fit_line(ends, kJoints.square_cut)) return LapRoot{*fit, false};
+    if (const auto fit = fit_line(cut, kJoints.square_cut)) return LapRoot{*fit, true, away};
+  if (const auto fit = fit_line(ends, kJoints.square_cut)) return LapRoot{*fit, false, away};
   return std::nullopt;
 }
 

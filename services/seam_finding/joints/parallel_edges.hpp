@@ -31,7 +31,8 @@ bool sees_below(const ScanCloud& cloud, const Transition& transition,
 // upper plate's end, brought down along the normal. In the lower plate's plane.
 struct LapRoot {
   LineFit fit;
-  bool seen = false;
+  bool seen = false;        // of the cut
+  bool faces_away = false;  // from the camera
 };
 std::optional<LapRoot> lap_root(const ScanCloud& cloud, const std::vector<Transition>& transitions,
                                 const PlateFrame& frame, const std::array<Plane, 2>& planes,

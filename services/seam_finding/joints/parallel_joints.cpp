@@ -121,7 +121,9 @@ bool set_lap(const ScanCloud& cloud, const TransitionLine& candidate, const Para
                              near_plate(scales), pitch);
   if (!root) return false;
   seam.seam = root->fit;
-  seam.root_hidden = !root->seen;
+  // A thin sheet's cut may show no point though it faces the camera.
+  seam.root_hidden =
+      !root->seen && (root->faces_away || seam.step >= settings.lap_thickness_min_mm);
   seam.edges[upper] = on_plane(frame, root->fit, planes[upper]);
   seam.edges[lower] = on_plane(frame, edges.plates[lower].value(), planes[lower]);
   joint.line = on_plane(frame, root->fit, planes[lower]);
