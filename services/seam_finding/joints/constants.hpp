@@ -111,6 +111,9 @@ struct JointConstants {
   // mm; and where a butt joint or a groove alone is wanted: the tops' mismatch, at most. - ISO
   // 5817, 507: by level D a quarter of the thickness, of plates of 8 mm.
   double most_mismatch = 2;
+  // Score over that of a joint found by the faces' planes, at least, for one found by the stripes'
+  // runs or in faces taken together: where the planes tell, they tell more closely - bench.
+  double clearly_better = 1.05;
   // mm; from both borders of a gap, where what a stripe shows is between the plates - bench.
   double off_border = 0.6;
   // mm; by which the edges of plates that touch seem to overlap, at most - bench.

@@ -61,7 +61,7 @@ JointPlate plate_of(const ScanCloud& cloud, const TransitionLine& candidate, con
     result.points.push_back(i);
     // Beyond the seam's ends another plate may lie on this side.
     const int stripe = cloud.origins[i].stripe;
-    if (cloud.organised() && (stripe < first || stripe > last)) continue;
+    if (candidate.by_runs && (stripe < first || stripe > last)) continue;
     if (away < kPlanes.fit_reach && !cloud.origins[i].segment_end) sums.add(cloud.points[i]);
   }
   result.plane = face.plane;
@@ -386,6 +386,28 @@ std::optional<PlateFrame> frame_of(const ScanCloud& cloud, const Face& face,
   return frame;
 }
 
+// The joint that the transitions on one line make.
+std::optional<Joint> joint_through(const ScanCloud& cloud, const std::vector<Face>& faces,
+                                   const std::array<int, 2>& sides, const PlateFrame& frame,
+                                   const std::vector<Section>& sections,
+                                   const std::vector<Transition>& transitions, bool by_runs,
+                                   const Scales& scales, const SeamFindingSettings& settings) {
+  TransitionLine candidate;
+  candidate.frame = frame;
+  candidate.faces = sides;
+  candidate.by_runs = by_runs;
+  candidate.transitions = on_one_line(cloud, frame, transitions);
+  if (candidate.transitions.empty()) return std::nullopt;
+  candidate.share = share_of_sections(cloud, sections, candidate.transitions);
+  return joint_at(cloud, faces, candidate, scales, settings);
+}
+
+// Than one that was found in the plainer way.
+bool clearly_better(const Joint& joint, const Joint& plain) {
+  if (static_cast<bool>(joint.flaw) != static_cast<bool>(plain.flaw)) return !joint.flaw;
+  return joint.score > kJoints.clearly_better * plain.score;
+}
+
 // The joints between each face and those behind it in the list, where `pairs`, and within each.
 void add_joints(const ScanCloud& cloud, const std::vector<Face>& faces, bool pairs,
                 const Eigen::Vector3d& way, const Scales& scales,
@@ -399,22 +421,24 @@ void add_joints(const ScanCloud& cloud, const std::vector<Face>& faces, bool pai
     for (int b = a; b < (pairs ? count : a + 1); ++b) {
       if (!parallel(faces[a], faces[b], settings.parallel_tolerance_deg * kDegree)) continue;
       const auto all =
-          a == b && cloud.organised()
-              ? transitions_within(cloud, sections, *frame, face_of, a, b, near_plate(scales))
-              : transitions_between(cloud, sections, face_of, faces, a, b, near_plate(scales));
+          transitions_between(cloud, sections, face_of, faces, a, b, near_plate(scales));
       for (const bool rising : {true, false}) {
         if (a == b && !rising) continue;
         std::vector<Transition> transitions;
         for (const Transition& transition : all)
           if (transition.rising == rising || a == b) transitions.push_back(transition);
-        TransitionLine candidate;
-        candidate.frame = *frame;
-        candidate.faces = rising ? std::array<int, 2>{a, b} : std::array<int, 2>{b, a};
-        candidate.transitions = on_one_line(cloud, *frame, transitions);
-        if (candidate.transitions.empty()) continue;
-        candidate.share = share_of_sections(cloud, sections, candidate.transitions);
-        if (auto joint = joint_at(cloud, faces, candidate, scales, settings))
-          joints.push_back(std::move(*joint));
+        const std::array<int, 2> sides =
+            rising ? std::array<int, 2>{a, b} : std::array<int, 2>{b, a};
+        auto joint = joint_through(cloud, faces, sides, *frame, sections, transitions, false,
+                                   scales, settings);
+        if (a == b && cloud.organised()) {
+          auto by_runs = joint_through(
+              cloud, faces, sides, *frame, sections,
+              transitions_within(cloud, sections, *frame, face_of, a, b, near_plate(scales)), true,
+              scales, settings);
+          if (by_runs && (!joint || clearly_better(*by_runs, *joint))) joint = std::move(by_runs);
+        }
+        if (joint) joints.push_back(std::move(*joint));
       }
     }
   }
@@ -428,9 +452,15 @@ std::vector<Joint> find_parallel_joints(const ScanCloud& cloud, const std::vecto
   const auto way = search_direction(cloud);
   if (!way) return joints;
   add_joints(cloud, faces, true, *way, scales, settings, joints);
-  if (cloud.organised())
-    add_joints(cloud, level_faces(cloud, faces, settings.parallel_tolerance_deg * kDegree), false,
-               *way, scales, settings, joints);
+  if (!cloud.organised()) return joints;
+  std::vector<Joint> together;
+  add_joints(cloud, level_faces(cloud, faces, settings.parallel_tolerance_deg * kDegree), false,
+             *way, scales, settings, together);
+  const std::size_t plain = joints.size();
+  for (Joint& joint : together)
+    if (std::all_of(joints.begin(), joints.begin() + static_cast<std::ptrdiff_t>(plain),
+                    [&](const Joint& other) { return clearly_better(joint, other); }))
+      joints.push_back(std::move(joint));
   return joints;
 }
 
