@@ -114,6 +114,8 @@ struct JointConstants {
   // Score over that of a joint found by the faces' planes, at least, for one found by the stripes'
   // runs or in faces taken together: where the planes tell, they tell more closely - bench.
   double clearly_better = 1.05;
+  // Variance across over that one's, at most, where the scores are alike - bench.
+  double clearly_closer = 0.7;
   // mm; from both borders of a gap, where what a stripe shows is between the plates - bench.
   double off_border = 0.6;
   // mm; by which the edges of plates that touch seem to overlap, at most - bench.

@@ -405,7 +405,9 @@ std::optional<Joint> joint_through(const ScanCloud& cloud, const std::vector<Fac
 // Than one that was found in the plainer way.
 bool clearly_better(const Joint& joint, const Joint& plain) {
   if (static_cast<bool>(joint.flaw) != static_cast<bool>(plain.flaw)) return !joint.flaw;
-  return joint.score > kJoints.clearly_better * plain.score;
+  if (joint.score > kJoints.clearly_better * plain.score) return true;
+  return kJoints.clearly_better * joint.score > plain.score &&
+         joint.parallel->seam.variance < kJoints.clearly_closer * plain.parallel->seam.variance;
 }
 
 // The joints between each face and those behind it in the list, where `pairs`, and within each.
