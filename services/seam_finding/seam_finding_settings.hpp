@@ -38,7 +38,8 @@ struct SeamFindingSettings {
   double outside_corner_angle_deg = 90;
   double outside_corner_tolerance_deg = 30;
   double parallel_tolerance_deg = 4;  // epsilon of lap, butt and v, whose theta is 0
-  double lap_thickness_min_mm = 1.5;  // of the upper plate; a smaller step is taken for none
+  double lap_thickness_min_mm = 1.5;  // of the upper plate, where other parallel joints are wanted,
+                                      // too: a smaller step is taken for none
   double lap_thickness_max_mm = 12;
   double butt_gap_max_mm = 4;
   double v_angle_deg = 60;  // between the two slants

@@ -178,8 +178,9 @@ std::optional<PlateEdge> find_edge(const ScanCloud& cloud, const PlateStripes& s
   if (on_edge.empty()) return std::nullopt;
 
   EdgeFit fit = through_the_middle(on_edge);
-  const double slope = fit.slope == 0 ? settings.edge_slope()
-                                      : std::max(kVisibility.end_slope, settings.edge_slope());
+  const double slope = cut != 0         ? kEnds.steepest
+                       : fit.slope == 0 ? settings.edge_slope()
+                                        : std::max(kVisibility.end_slope, settings.edge_slope());
   for (int pass = 0; pass < 3; ++pass) {
     const double spread = spread_about(on_edge, fit), known = known_to(on_edge);
     const auto count = static_cast<double>(on_edge.size());

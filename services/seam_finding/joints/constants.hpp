@@ -104,6 +104,9 @@ struct JointConstants {
   std::size_t cut_points = 6;
   // An edge face's points over what lies on the plates - bench.
   double off_plate = 1.25;
+  // mm out for each mm across; of a straight run on a plate against the face that holds it, at
+  // most: a face that is laid through two plates a tolerance apart lies less askew - bench.
+  double steepest_run = 0.1;
   // mm; from the line, where a narrow gap is sought - bench.
   double gap_reach = 4;
   // rad; of an edge face from the plate's normal, at least, where it is a groove's - bench.
@@ -112,8 +115,27 @@ struct JointConstants {
   double gap_noise = 0.06;
   // mm across for each mm down; of the sight into a gap, at least - bench.
   double least_gap_sight = 0.15;
-  // mm; between the tops of a butt joint's plates, at most - bench.
+  // mm; between the tops of a butt joint's plates, at most, where its gap is fitted or their faces
+  // are taken together - bench.
   double one_level = 1;
+  // mm; of a step between two plates, where a lap alone is wanted: at least, so that waves and
+  // bends make none. Sheet metal is thinner only in bodies and cabinets - bench, whose sheets are
+  // of 0.8 mm and more.
+  double least_step = 0.6;
+  // mm; and where a butt joint or a groove alone is wanted: the tops' mismatch, at most. - ISO
+  // 5817, 507: by level D a quarter of the thickness, of plates of 8 mm.
+  double most_mismatch = 2;
+  // Score over that of a joint found by the faces' planes, at least, for one found by the stripes'
+  // runs or in faces taken together: where the planes tell, they tell more closely - bench.
+  double clearly_better = 1.05;
+  // Variance across over that one's, at most, where the scores are alike - bench.
+  double clearly_closer = 0.7;
+  // mm; from both borders of a gap, where what a stripe shows is between the plates - bench.
+  double off_border = 0.6;
+  // mm; by which the edges of plates that touch seem to overlap, at most - bench.
+  double overlap = 0.5;
+  // Share of the stripes that are seen to go on below the lower plate, where it ends - bench.
+  double seen_below = 0.3;
 };
 inline constexpr JointConstants kJoints;
 

@@ -78,6 +78,48 @@ int end_on_cut(const ScanCloud& cloud, const Transition& transition, const Plane
   return parted && plane.signed_distance(cloud.points[end]) < -near_mm ? end : -1;
 }
 
+// By how much the second plate's top lies above the first's, at a transition; mm.
+double step_at(const ScanCloud& cloud, const Transition& transition,
+               const std::array<Plane, 2>& planes) {
+  const Eigen::Vector3d p = (cloud.points[transition.last] + cloud.points[transition.first]) / 2;
+  return planes[0].signed_distance(p) - planes[1].signed_distance(p);
+}
+
+// Where the tops differ, the higher plate's edge shades and hides the lower one beside it: that
+// plate ends anywhere from where it was last seen to the higher one's edge, but no farther than a
+// shadow reaches. Nothing is hidden where something below it is seen between. In the middle of that
+// stretch the lower plate's end is put. Returns, by plate, how long the stretch is on the average.
+std::array<double, 2> beside_a_step(const ScanCloud& cloud,
+                                    const std::vector<Transition>& transitions,
+                                    const PlateFrame& frame, const std::array<Plane, 2>& planes,
+                                    double near_mm, std::array<std::vector<LinePlace>, 2>& ends) {
+  std::array<double, 2> hidden{};
+  for (std::size_t k = 0; k < transitions.size(); ++k) {
+    const double step = step_at(cloud, transitions[k], planes);
+    if (std::abs(step) < 2 * near_mm || sees_below(cloud, transitions[k], planes, near_mm))
+      continue;
+    const int lower = step > 0 ? 0 : 1;
+    const double most = kJoints.step_shadow * std::abs(step);
+    const double stretch = std::clamp(ends[1][k].across - ends[0][k].across, 0.0, most);
+    ends[lower][k].across += (lower == 0 ? 0.5 : -0.5) * stretch;
+    // Between two points that follow each other nothing is seen, either.
+    const double unseen = frame.of(cloud.points[transitions[k].first]).y() -
+                          frame.of(cloud.points[transitions[k].last]).y();
+    hidden[lower] += std::clamp(unseen, 0.0, most) / static_cast<double>(transitions.size());
+  }
+  return hidden;
+}
+
+// An even distribution over what is hidden is common to all stripes: more of them tell no more.
+void widen(LineFit& border, double hidden, const std::vector<LinePlace>& ends) {
+  const auto [first, last] =
+      std::minmax_element(ends.begin(), ends.end(),
+                          [](const LinePlace& a, const LinePlace& b) { return a.along < b.along; });
+  const double variance = hidden * hidden / 12, half = (last->along - first->along) / 2;
+  border.variance += variance;
+  if (half > 0) border.slope_variance += variance / (half * half);
+}
+
 // Whether the stripes run through the gap in one piece, so that they end at neither plate.
 bool run_through(const ScanCloud& cloud, const std::vector<Transition>& transitions) {
   const auto through = [&](const Transition& transition) {
@@ -144,17 +186,30 @@ std::optional<std::array<LineFit, 2>> butt_edges(const ScanCloud& cloud,
 
 }  // namespace
 
+bool sees_below(const ScanCloud& cloud, const Transition& transition,
+                const std::array<Plane, 2>& planes, double near_mm) {
+  return std::any_of(transition.between.begin(), transition.between.end(), [&](int i) {
+    return !cloud.origins[i].segment_end &&
+           std::max(planes[0].signed_distance(cloud.points[i]),
+                    planes[1].signed_distance(cloud.points[i])) < -2 * near_mm;
+  });
+}
+
 ParallelEdges edges_of(const ScanCloud& cloud, const std::vector<Transition>& transitions,
                        const PlateFrame& frame, const std::array<Plane, 2>& planes, double near_mm,
                        double pitch_mm) {
   ParallelEdges borders;
+  std::array<std::vector<LinePlace>, 2> ends;
+  for (int plate = 0; plate < 2; ++plate)
+    for (const Transition& transition : transitions)
+      ends[plate].push_back(
+          end_place(cloud, transition, frame, plate, follower(cloud, transition, plate), pitch_mm));
+  const auto hidden = beside_a_step(cloud, transitions, frame, planes, near_mm, ends);
   for (int plate = 0; plate < 2; ++plate) {
-    std::vector<LinePlace> ends, cut, ends_on_cut;
+    std::vector<LinePlace> cut, ends_on_cut;
     double deepest = 0;
     for (const Transition& transition : transitions) {
       const auto run = falling(cloud, transition, planes[plate], plate);
-      ends.push_back(
-          end_place(cloud, transition, frame, plate, follower(cloud, transition, plate), pitch_mm));
       if (const int i = end_on_cut(cloud, transition, planes[plate], plate, near_mm); i >= 0) {
         const Eigen::Vector3d p = frame.of(cloud.points[i]);
         ends_on_cut.push_back({p.x(), p.y(), 0, kJoints.cut_deviation});
@@ -183,11 +238,12 @@ ParallelEdges edges_of(const ScanCloud& cloud, const std::vector<Transition>& tr
     }
     const bool parted = 2 * ends_on_cut.size() > transitions.size();
     borders.together |= parted;
-    borders.plates[plate] = fit_line(parted ? ends_on_cut : ends, kJoints.square_cut);
+    borders.plates[plate] = fit_line(parted ? ends_on_cut : ends[plate], kJoints.square_cut);
+    if (!parted && borders.plates[plate]) widen(*borders.plates[plate], hidden[plate], ends[plate]);
   }
   const auto& [first, second] = borders.plates;
   if (borders.slants[0] || borders.slants[1] || !first || !second || !cloud.organised() ||
-      !run_through(cloud, transitions))
+      !run_through(cloud, transitions) || hidden[0] + hidden[1] > 0)
     return borders;
   const auto narrow = butt_edges(cloud, transitions, frame, planes, *first, *second, near_mm);
   if (!narrow) return borders;
@@ -201,9 +257,19 @@ std::optional<LapRoot> lap_root(const ScanCloud& cloud, const std::vector<Transi
                                 int upper, double step_mm, double near_mm, double pitch_mm) {
   std::vector<LinePlace> cut, ends;
   const Plane& lower = planes[1 - upper];
+  const double outward = upper == 0 ? 1 : -1;  // of the cut, across
+  const auto faces_away = [&](int i) {
+    return outward * frame.across.dot(cloud.seen_from(i) - cloud.points[i]) < 0;
+  };
+  const bool away = 2 * std::count_if(transitions.begin(), transitions.end(),
+                                      [&](const auto& t) { return faces_away(t.last); }) >
+                    std::ssize(transitions);
   for (const Transition& transition : transitions) {
     for (const int i : transition.between) {
       const double height = lower.signed_distance(cloud.points[i]);
+      // A cut that faces away from the camera is not seen: what lies between is the step's
+      // rounding.
+      if (outward * frame.across.dot(cloud.seen_from(i) - cloud.points[i]) < 0) continue;
       if (height < kJoints.off_plate * near_mm || height > step_mm - kJoints.off_plate * near_mm ||
           cloud.origins[i].segment_end)
         continue;
@@ -216,8 +282,8 @@ std::optional<LapRoot> lap_root(const ScanCloud& cloud, const std::vector<Transi
         end_place(cloud, transition, frame, upper, follower(cloud, transition, upper), pitch_mm));
   }
   if (cut.size() >= kJoints.cut_points)
-    if (const auto fit = fit_line(cut, kJoints.square_cut)) return LapRoot{*fit, true};
-  if (const auto fit = fit_line(ends, kJoints.square_cut)) return LapRoot{*fit, false};
+    if (const auto fit = fit_line(cut, kJoints.square_cut)) return LapRoot{*fit, true, away};
+  if (const auto fit = fit_line(ends, kJoints.square_cut)) return LapRoot{*fit, false, away};
   return std::nullopt;
 }
 

@@ -2,6 +2,8 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
+#include <numeric>
 
 #include "services/seam_finding/coverage/coverage.hpp"
 #include "services/seam_finding/coverage/parallel_stations.hpp"
@@ -9,6 +11,7 @@
 #include "services/seam_finding/fit/plane_fit.hpp"
 #include "services/seam_finding/joints/constants.hpp"
 #include "services/seam_finding/joints/parallel_edges.hpp"
+#include "services/seam_finding/joints/straight_runs.hpp"
 #include "services/seam_finding/joints/transitions.hpp"
 
 namespace arcstart::seam_finding {
@@ -24,6 +27,24 @@ bool is_wanted(JointType type, const SeamFindingSettings& settings) {
   return std::find(wanted.begin(), wanted.end(), type) != wanted.end();
 }
 
+// The first and the last of the sections that the transitions lie in.
+std::pair<int, int> sections_of(const std::vector<Transition>& transitions) {
+  const auto [first, last] = std::minmax_element(
+      transitions.begin(), transitions.end(),
+      [](const Transition& a, const Transition& b) { return a.section < b.section; });
+  return {first->section, last->section};
+}
+
+// Where one face holds two plates at unlike heights, a plate that goes on behind the other's end
+// lies on the other's side, too: there it is not the other plate.
+void keep_own_height(const ScanCloud& cloud, double near_mm, std::array<JointPlate, 2>& plates) {
+  for (int j = 0; j < 2; ++j)
+    std::erase_if(plates[j].points, [&](int i) {
+      return std::abs(plates[j].plane.signed_distance(cloud.points[i])) >
+             std::abs(plates[1 - j].plane.signed_distance(cloud.points[i])) + 2 * near_mm;
+    });
+}
+
 // A plate's points on its own side of its border, and the plane through those near it.
 JointPlate plate_of(const ScanCloud& cloud, const TransitionLine& candidate, const Face& face,
                     int plate, double across_of_line, double slope, double contact) {
@@ -32,11 +53,15 @@ JointPlate plate_of(const ScanCloud& cloud, const TransitionLine& candidate, con
   result.contact = contact;
   result.away = outward * candidate.frame.across;
   PlaneSums sums(candidate.frame.origin);
+  const auto [first, last] = sections_of(candidate.transitions);
   for (const int i : face.points) {
     const Eigen::Vector3d p = candidate.frame.of(cloud.points[i]);
     const double away = outward * (p.y() - across_of_line - slope * p.x());
     if (away < 0) continue;
     result.points.push_back(i);
+    // Beyond the seam's ends another plate may lie on this side.
+    const int stripe = cloud.origins[i].stripe;
+    if (candidate.by_runs && (stripe < first || stripe > last)) continue;
     if (away < kPlanes.fit_reach && !cloud.origins[i].segment_end) sums.add(cloud.points[i]);
   }
   result.plane = face.plane;
@@ -96,7 +121,9 @@ bool set_lap(const ScanCloud& cloud, const TransitionLine& candidate, const Para
                              near_plate(scales), pitch);
   if (!root) return false;
   seam.seam = root->fit;
-  seam.root_hidden = !root->seen;
+  // A thin sheet's cut may show no point though it faces the camera.
+  seam.root_hidden =
+      !root->seen && (root->faces_away || seam.step >= settings.lap_thickness_min_mm);
   seam.edges[upper] = on_plane(frame, root->fit, planes[upper]);
   seam.edges[lower] = on_plane(frame, edges.plates[lower].value(), planes[lower]);
   joint.line = on_plane(frame, root->fit, planes[lower]);
@@ -142,8 +169,32 @@ void set_butt_or_groove(const TransitionLine& candidate, const ParallelEdges& ed
     joint.flaw = {groove ? Code::kGrooveNotWanted : Code::kButtNotWanted};
   else if (groove && seam.half_angle > half_angle_max)
     joint.flaw = {Code::kGrooveAngle, 2 * seam.half_angle};
-  else if (width > (groove ? settings.v_width_max_mm : settings.butt_gap_max_mm) || width < 0)
+  else if (width > (groove ? settings.v_width_max_mm : settings.butt_gap_max_mm) ||
+           width < -kJoints.overlap)
     joint.flaw = {Code::kGapWidth, width};
+}
+
+// Between the plates' edges something is seen that lies below both: there the lower one ends, too.
+bool lower_plate_ends(const ScanCloud& cloud, const TransitionLine& candidate,
+                      const std::array<Plane, 2>& planes, double near_mm) {
+  const auto& all = candidate.transitions;
+  return static_cast<double>(
+             std::count_if(all.begin(), all.end(), [&](const Transition& transition) {
+               return sees_below(cloud, transition, planes, near_mm);
+             })) >= kJoints.seen_below * static_cast<double>(all.size());
+}
+
+// A step between the tops is a lap's or a mismatch: by its height alone where both are wanted, else
+// as the one that is asked for may have it.
+bool is_lap(const ScanCloud& cloud, const TransitionLine& candidate,
+            const std::array<Plane, 2>& planes, double step, double near_mm,
+            const SeamFindingSettings& settings) {
+  const bool flush = is_wanted(JointType::kButt, settings) || is_wanted(JointType::kV, settings);
+  const bool lap = is_wanted(JointType::kLap, settings);
+  if (lap && !flush && step < settings.lap_thickness_min_mm)
+    return step >= kJoints.least_step && !lower_plate_ends(cloud, candidate, planes, near_mm);
+  if (flush && !lap) return step >= std::max(settings.lap_thickness_min_mm, kJoints.most_mismatch);
+  return step >= settings.lap_thickness_min_mm;
 }
 
 // What joint the plates' edges make. False where they have none that is straight.
@@ -160,7 +211,7 @@ bool set_type(const ScanCloud& cloud, const TransitionLine& candidate, const Sca
   const double step = planes[0].signed_distance(place) - planes[1].signed_distance(place);
   const double width = second.across_at(middle.middle) - first.across_at(middle.middle);
   joint.parallel.emplace().seam = middle;
-  if (std::abs(step) >= settings.lap_thickness_min_mm)
+  if (is_lap(cloud, candidate, planes, std::abs(step), near_plate(scales), settings))
     return set_lap(cloud, candidate, edges, scales, settings, step, width, joint);
   set_butt_or_groove(candidate, edges, settings, width, joint);
   return true;
@@ -190,6 +241,36 @@ void judge(const ScanCloud& cloud, const TransitionLine& candidate, const Scales
     joint.flaw = {Code::kFewStripesCross, static_cast<double>(joint.coverage.stripes)};
   else if (joint.coverage.covered < kJoints.shortest_doubtful)
     joint.flaw = {Code::kShortlySeen, joint.coverage.covered};
+}
+
+// A stripe that goes straight on across a gap runs over what lies flush beyond the seam's end, as a
+// run-off tab: what it shows is neither plate. A bead between the plates is not as flat.
+void leave_out_what_runs_across(const ScanCloud& cloud, const Scales& scales, Joint& joint) {
+  if (!cloud.organised() || joint.type == JointType::kLap) return;
+  const std::array<Line, 2>& edges = joint.parallel->edges;
+  const Eigen::Vector3d across = joint.plates[1].away;
+  struct Between {
+    int count = 0;
+    double least = std::numeric_limits<double>::infinity(), most = -least;
+  };
+  std::vector<Between> stripes(cloud.stripes.size());
+  for (int i = 0; i < cloud.size(); ++i) {
+    const Eigen::Vector3d& p = cloud.points[i];
+    const double along = edges[0].along(p);
+    const double from = across.dot(p - edges[0].at(along)),
+                 to = across.dot(edges[1].at(edges[1].along(p)) - p);
+    if (from < kJoints.off_border || to < kJoints.off_border) continue;
+    Between& between = stripes[cloud.origins[i].stripe];
+    const double height = joint.plates[from > to ? 1 : 0].plane.signed_distance(p);
+    ++between.count;
+    between.least = std::min(between.least, height), between.most = std::max(between.most, height);
+  }
+  const auto runs_across = [&](int i) {
+    const Between& between = stripes[cloud.origins[i].stripe];
+    return between.count >= kModel.sure_points && between.least > -scales.tolerance &&
+           between.most < scales.tolerance && between.most - between.least < 2 * near_plate(scales);
+  };
+  for (JointPlate& plate : joint.plates) std::erase_if(plate.points, runs_across);
 }
 
 // In the middle of the scan's way a plate that a stripe leaves is there for the width alone.
@@ -233,11 +314,14 @@ std::optional<Joint> joint_at(const ScanCloud& cloud, const std::vector<Face>& f
   for (int j = 0; j < 2; ++j)
     joint.plates[j] = plate_of(cloud, candidate, faces[candidate.faces[j]], j, rough->across_at(0),
                                rough->slope, scales.contact);
+  if (joint.faces[0] == joint.faces[1]) keep_own_height(cloud, near_plate(scales), joint.plates);
   if (joint.plates[0].points.empty() || joint.plates[1].points.empty()) return std::nullopt;
   if (!set_type(cloud, candidate, scales, settings, joint)) return std::nullopt;
   for (int j = 0; j < 2; ++j)
     joint.plates[j].away =
         (j == 0 ? -1 : 1) * candidate.frame.normal.cross(joint.line.direction).normalized();
+  leave_out_what_runs_across(cloud, scales, joint);
+  if (joint.plates[0].points.empty() || joint.plates[1].points.empty()) return std::nullopt;
   judge(cloud, candidate, scales, settings, joint);
   if (!joint.flaw) measure_gaps(cloud, candidate, joint);
   return joint;
@@ -247,27 +331,96 @@ bool parallel(const Face& a, const Face& b, double tolerance) {
   return angle_between(a.plane.normal, b.plane.normal) < 2 * tolerance;
 }
 
-}  // namespace
+// Half of a face's points are no farther from another's plane than plates side by side may be.
+bool level_with(const ScanCloud& cloud, const Face& face, const Plane& plane) {
+  std::vector<double> off;
+  for (const int i : face.points) off.push_back(std::abs(plane.signed_distance(cloud.points[i])));
+  return quantile(off, 0.5) < kJoints.one_level;
+}
 
-std::vector<Joint> find_parallel_joints(const ScanCloud& cloud, const std::vector<Face>& faces,
-                                        const Scales& scales, const SeamFindingSettings& settings) {
-  std::vector<Joint> joints;
-  const auto way = search_direction(cloud);
-  if (!way) return joints;
+// Two plates side by side at one level may have been laid out as a face that holds a part of both,
+// and one that holds the rest. Such faces together, for each group of two or more.
+std::vector<Face> level_faces(const ScanCloud& cloud, const std::vector<Face>& faces,
+                              double tolerance) {
+  std::vector<int> group(faces.size());
+  std::iota(group.begin(), group.end(), 0);
+  for (std::size_t a = 0; a < faces.size(); ++a)
+    for (std::size_t b = a + 1; b < faces.size(); ++b)
+      if (parallel(faces[a], faces[b], tolerance) && level_with(cloud, faces[a], faces[b].plane) &&
+          level_with(cloud, faces[b], faces[a].plane))
+        std::replace(group.begin(), group.end(), group[b], group[a]);
+  std::vector<Face> together;
+  for (int g = 0; g < static_cast<int>(faces.size()); ++g) {
+    if (std::count(group.begin(), group.end(), g) < 2) continue;
+    Face face;
+    std::size_t most = 0;
+    for (std::size_t f = 0; f < faces.size(); ++f) {
+      if (group[f] != g) continue;
+      face.points.insert(face.points.end(), faces[f].points.begin(), faces[f].points.end());
+      if (faces[f].points.size() > most) most = faces[f].points.size(), face.plane = faces[f].plane;
+    }
+    std::sort(face.points.begin(), face.points.end());
+    together.push_back(std::move(face));
+  }
+  return together;
+}
+
+std::vector<int> face_of_points(const ScanCloud& cloud, const std::vector<Face>& faces) {
   std::vector<int> face_of(cloud.points.size(), -1);
   for (int f = 0; f < static_cast<int>(faces.size()); ++f)
     for (const int i : faces[f].points) face_of[i] = f;
-  for (int a = 0; a < static_cast<int>(faces.size()); ++a) {
-    const Plane& plane = faces[a].plane;
-    const Eigen::Vector3d along = *way - way->dot(plane.normal) * plane.normal;
-    if (along.norm() < 0.5) continue;
-    PlateFrame frame;
-    frame.origin = cloud.points[faces[a].points[faces[a].points.size() / 2]];
-    frame.along = along.normalized();
-    frame.normal = plane.normal;
-    frame.across = frame.normal.cross(frame.along);
-    const auto sections = sections_across(cloud, frame, scales.spacing);
-    for (int b = a; b < static_cast<int>(faces.size()); ++b) {
+  return face_of;
+}
+
+// Axes in the face, along the search; nothing where that leads out of it.
+std::optional<PlateFrame> frame_of(const ScanCloud& cloud, const Face& face,
+                                   const Eigen::Vector3d& way) {
+  const Eigen::Vector3d& normal = face.plane.normal;
+  const Eigen::Vector3d along = way - way.dot(normal) * normal;
+  if (along.norm() < 0.5) return std::nullopt;
+  PlateFrame frame;
+  frame.origin = cloud.points[face.points[face.points.size() / 2]];
+  frame.along = along.normalized();
+  frame.normal = normal;
+  frame.across = frame.normal.cross(frame.along);
+  return frame;
+}
+
+// The joint that the transitions on one line make.
+std::optional<Joint> joint_through(const ScanCloud& cloud, const std::vector<Face>& faces,
+                                   const std::array<int, 2>& sides, const PlateFrame& frame,
+                                   const std::vector<Section>& sections,
+                                   const std::vector<Transition>& transitions, bool by_runs,
+                                   const Scales& scales, const SeamFindingSettings& settings) {
+  TransitionLine candidate;
+  candidate.frame = frame;
+  candidate.faces = sides;
+  candidate.by_runs = by_runs;
+  candidate.transitions = on_one_line(cloud, frame, transitions);
+  if (candidate.transitions.empty()) return std::nullopt;
+  candidate.share = share_of_sections(cloud, sections, candidate.transitions);
+  return joint_at(cloud, faces, candidate, scales, settings);
+}
+
+// Than one that was found in the plainer way.
+bool clearly_better(const Joint& joint, const Joint& plain) {
+  if (static_cast<bool>(joint.flaw) != static_cast<bool>(plain.flaw)) return !joint.flaw;
+  if (joint.score > kJoints.clearly_better * plain.score) return true;
+  return kJoints.clearly_better * joint.score > plain.score &&
+         joint.parallel->seam.variance < kJoints.clearly_closer * plain.parallel->seam.variance;
+}
+
+// The joints between each face and those behind it in the list, where `pairs`, and within each.
+void add_joints(const ScanCloud& cloud, const std::vector<Face>& faces, bool pairs,
+                const Eigen::Vector3d& way, const Scales& scales,
+                const SeamFindingSettings& settings, std::vector<Joint>& joints) {
+  const std::vector<int> face_of = face_of_points(cloud, faces);
+  const int count = static_cast<int>(faces.size());
+  for (int a = 0; a < count; ++a) {
+    const auto frame = frame_of(cloud, faces[a], way);
+    if (!frame) continue;
+    const auto sections = sections_across(cloud, *frame, scales.spacing);
+    for (int b = a; b < (pairs ? count : a + 1); ++b) {
       if (!parallel(faces[a], faces[b], settings.parallel_tolerance_deg * kDegree)) continue;
       const auto all =
           transitions_between(cloud, sections, face_of, faces, a, b, near_plate(scales));
@@ -276,17 +429,40 @@ std::vector<Joint> find_parallel_joints(const ScanCloud& cloud, const std::vecto
         std::vector<Transition> transitions;
         for (const Transition& transition : all)
           if (transition.rising == rising || a == b) transitions.push_back(transition);
-        TransitionLine candidate;
-        candidate.frame = frame;
-        candidate.faces = rising ? std::array<int, 2>{a, b} : std::array<int, 2>{b, a};
-        candidate.transitions = on_one_line(cloud, frame, transitions);
-        if (candidate.transitions.empty()) continue;
-        candidate.share = share_of_sections(cloud, sections, candidate.transitions);
-        if (auto joint = joint_at(cloud, faces, candidate, scales, settings))
-          joints.push_back(std::move(*joint));
+        const std::array<int, 2> sides =
+            rising ? std::array<int, 2>{a, b} : std::array<int, 2>{b, a};
+        auto joint = joint_through(cloud, faces, sides, *frame, sections, transitions, false,
+                                   scales, settings);
+        if (a == b && cloud.organised()) {
+          auto by_runs = joint_through(
+              cloud, faces, sides, *frame, sections,
+              transitions_within(cloud, sections, *frame, face_of, a, b, near_plate(scales)), true,
+              scales, settings);
+          if (by_runs && (!joint || clearly_better(*by_runs, *joint))) joint = std::move(by_runs);
+        }
+        if (joint) joints.push_back(std::move(*joint));
       }
     }
   }
+}
+
+}  // namespace
+
+std::vector<Joint> find_parallel_joints(const ScanCloud& cloud, const std::vector<Face>& faces,
+                                        const Scales& scales, const SeamFindingSettings& settings) {
+  std::vector<Joint> joints;
+  const auto way = search_direction(cloud);
+  if (!way) return joints;
+  add_joints(cloud, faces, true, *way, scales, settings, joints);
+  if (!cloud.organised()) return joints;
+  std::vector<Joint> together;
+  add_joints(cloud, level_faces(cloud, faces, settings.parallel_tolerance_deg * kDegree), false,
+             *way, scales, settings, together);
+  const std::size_t plain = joints.size();
+  for (Joint& joint : together)
+    if (std::all_of(joints.begin(), joints.begin() + static_cast<std::ptrdiff_t>(plain),
+                    [&](const Joint& other) { return clearly_better(joint, other); }))
+      joints.push_back(std::move(joint));
   return joints;
 }
 

@@ -50,6 +50,7 @@ struct TransitionLine {
   std::array<int, 2> faces{};           // at the smaller `across`, at the larger
   std::vector<Transition> transitions;  // on one line
   double share = 0;                     // of the sections that see both plates there
+  bool by_runs = false;                 // the transitions are those of transitions_within()
 };
 
 // In the frame, half-way between the two points; mm.

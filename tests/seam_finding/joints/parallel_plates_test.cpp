@@ -1,0 +1,158 @@
+// Plates side by side at unlike heights, thin laps and run-off tabs, in scans in closed form. The
+// truth is that of a plain scene whose boxes are moved by hand.
+#include <fmt/core.h>
+
+#include <catch2/catch.hpp>
+#include <cmath>
+
+#include "services/seam_finding/answer/wording.hpp"
+#include "services/seam_finding/background/surface_background.hpp"
+#include "services/seam_finding/find_seam.hpp"
+#include "tests/seam_finding/support/synthetic_scan.hpp"
+
+using namespace arcstart;
+using namespace arcstart::seam_finding;
+using namespace arcstart::seam_finding::synthetic;
+using Eigen::Vector3d;
+
+namespace {
+
+constexpr int seeds = 5;
+const ScanChoice with_bends{.bends = true};
+
+SeamResult find(const Scene& scene, const std::string& joint_type, int seed) {
+  const auto number = static_cast<std::uint64_t>(seed);
+  Scene cell = scene;
+  cell.boxes.clear();
+  const ScanCloud empty = make_scan(cell, with_bends, 1000 + number).cloud;
+  SeamFindingSettings settings;
+  settings.joint_type = joint_type;
+  return find_seam(make_scan(scene, with_bends, number).cloud,
+                   SurfaceBackground(empty, settings.background_distance_mm), settings, number);
+}
+
+// Along the seam, across it toward the first plate, out of the metal.
+struct Axes {
+  explicit Axes(const Scene& scene)
+      : along((scene.end - scene.start).normalized()),
+        across(scene.normals[0].cross(along)),
+        out(scene.normals[0]) {}
+  Vector3d along, across, out;
+};
+
+void move(Box& box, const Vector3d& by) {
+  box.T_base_box = Eigen::Translation3d(by) * box.T_base_box;
+}
+
+Scene scene_of(const std::string& joint, int seed) {
+  return make_scene({.joint = joint}, static_cast<std::uint64_t>(seed));
+}
+
+// A butt joint whose gap is closed by so much of its 1 mm and whose second plate is raised.
+Scene stepped_butt(int seed, double closed_mm, double raised_mm) {
+  Scene scene = scene_of("butt", seed);
+  const Axes axes(scene);
+  move(scene.boxes[0], -closed_mm / 2 * axes.across);
+  move(scene.boxes[1], closed_mm / 2 * axes.across + raised_mm * axes.out);
+  return scene;
+}
+
+// A lap whose upper plate is a thin sheet that begins later; the truth begins with it.
+Scene thin_lap(int seed, double thickness_mm, double later_mm) {
+  Scene scene = scene_of("lap", seed);
+  const Axes axes(scene);
+  Box& upper = scene.boxes[1];
+  move(upper, (thickness_mm / 2 - upper.half_size.z()) * axes.out + later_mm * axes.along);
+  upper.half_size.z() = thickness_mm / 2;
+  scene.start += later_mm * axes.along;
+  return scene;
+}
+
+double deviation(const Eigen::Matrix3d& covariance, const Vector3d& direction) {
+  return std::sqrt(direction.dot(covariance * direction));
+}
+
+}  // namespace
+
+TEST_CASE("plates side by side at unlike heights are parted, though one plane lies near both") {
+  const double raised = GENERATE(-0.7, -0.4, 0.4, 0.7);
+  int right = 0;
+  for (int seed = 1; seed <= seeds; ++seed) {
+    const Scene scene = stepped_butt(seed, 0, raised);
+    const SeamResult result = find(scene, "butt", seed);
+    if (result.verdict != SeamResult::Verdict::kFound) continue;
+    const Axes axes(scene);
+    right += std::abs(axes.across.dot(result.start - scene.start)) < 0.4 &&
+             std::abs(axes.across.dot(result.end - scene.end)) < 0.4 &&
+             std::abs(axes.along.dot(result.start - scene.start)) < 3 &&
+             std::abs(axes.along.dot(result.end - scene.end)) < 3;
+  }
+  INFO("raised by " << raised << " mm");
+  CHECK(right == seeds);
+}
+
+TEST_CASE("a lap of thin sheet is a lap where one is asked for, and begins with the sheet") {
+  const double thickness = GENERATE(0.8, 1.2);
+  for (int seed = 1; seed <= seeds; ++seed) {
+    const Scene scene = thin_lap(seed, thickness, 15);
+    const SeamResult result = find(scene, "lap", seed);
+    INFO("seed " << seed << ", " << thickness << " mm: " << in_words(result.reason));
+    REQUIRE(result.verdict == SeamResult::Verdict::kFound);
+    CHECK(result.joint_type == "lap");
+    CHECK(result.thickness == Approx(thickness).margin(0.25));
+    CHECK(std::abs(Axes(scene).along.dot(result.start - scene.start)) < 3);
+    CHECK(std::abs(Axes(scene).across.dot(result.start - scene.start)) < 0.4);
+  }
+}
+
+TEST_CASE("plates whose tops differ by less than 2 mm are a butt joint where one is asked for") {
+  const double raised = GENERATE(-1.7, 1.7);
+  for (int seed = 1; seed <= seeds; ++seed) {
+    const SeamResult result = find(stepped_butt(seed, 0, raised), "butt", seed);
+    INFO("seed " << seed << ", raised by " << raised << " mm: " << in_words(result.reason));
+    REQUIRE(result.verdict == SeamResult::Verdict::kFound);
+    CHECK(result.joint_type == "butt");
+  }
+}
+
+TEST_CASE("beside a step the seam's deviation across covers what the higher edge hides") {
+  // The edges touch: where the truth is, the higher plate's edge is seen, the lower one's is not.
+  const double raised = GENERATE(-1.6, -1, 1, 1.6);
+  for (int seed = 1; seed <= seeds; ++seed) {
+    const Scene scene = stepped_butt(seed, 1, raised);
+    const SeamResult result = find(scene, "butt", seed);
+    INFO("seed " << seed << ", raised by " << raised << " mm: " << in_words(result.reason));
+    REQUIRE(result.verdict == SeamResult::Verdict::kFound);
+    REQUIRE(result.accuracy);
+    const Vector3d across = Axes(scene).across;
+    const double start = across.dot(result.start - scene.start),
+                 end = across.dot(result.end - scene.end);
+    CHECK(std::abs(start) < 0.8);
+    CHECK(std::abs(end) < 0.8);
+    CHECK(std::abs(start) < 3 * deviation(result.accuracy->start, across));
+    CHECK(std::abs(end) < 3 * deviation(result.accuracy->end, across));
+    CHECK(deviation(result.accuracy->start, across) < 0.5);
+  }
+}
+
+TEST_CASE("a groove ends where a run-off tab begins") {
+  constexpr double length_mm = 25, half_width_mm = 22, thickness_mm = 6;
+  for (int seed = 1; seed <= seeds; ++seed) {
+    Scene scene = scene_of("v", seed);
+    const Axes axes(scene);
+    // Both plates end on it: the second, which goes on by 5 mm, is what it lies against.
+    Box tab = scene.boxes[1];
+    tab.cuts.clear();
+    tab.half_size = {length_mm / 2, half_width_mm, thickness_mm / 2};
+    tab.T_base_box.translation() =
+        scene.end + (length_mm / 2 + 5) * axes.along - thickness_mm / 2 * axes.out;
+    scene.boxes.push_back(tab);
+    const SeamResult result = find(scene, "v", seed);
+    INFO("seed " << seed << ": " << in_words(result.reason));
+    REQUIRE(result.verdict == SeamResult::Verdict::kFound);
+    REQUIRE(result.accuracy);
+    const double off = axes.along.dot(result.end - scene.end);
+    CHECK(std::abs(off) < 3.6);
+    CHECK(std::abs(off) < 3 * deviation(result.accuracy->end, axes.along));
+  }
+}
