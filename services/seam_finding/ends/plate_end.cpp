@@ -144,39 +144,39 @@ double slope_told(const Places& all, const EdgeWindow& window) {
   return best;
 }
 
-}  // namespace
-
-std::optional<PlateEdge> find_edge(const ScanCloud& cloud, const PlateStripes& stripes,
-                                   SeamSide side, const EdgeWindow& window, const Scales& scales,
-                                   const SeamFindingSettings& settings) {
+// Of the places of one edge those that tell where it lies, as if it were cut square, and the slope
+// at which it is cut where it is not.
+struct EdgePlaces {
   Places places;
-  // What lies farther from the seam is the plate's other edge, along the seam.
-  const double far = stripes.reach - kVisibility.far_edge;
-  for (const auto& run : stripes.runs)
-    if (const auto place = edge_crossing(cloud, run, stripes, side, scales, settings))
-      if (place->away < far && (place->sharp || place->away > kVisibility.near_seam))
-        places.push_back(*place);
-  Agreement square = largest_agreement(places, window, settings.edge_slope());
+  double cut = 0;
+};
+
+bool clear(const EdgeCrossing& place) { return place.sharp && !place.occluded; }
+
+EdgePlaces places_on_edge(const Places& places, const EdgeWindow& window,
+                          const SeamFindingSettings& settings) {
+  Agreement best = largest_agreement(places, window, settings.edge_slope());
   double cut = slope_told(places, window);
   if (cut != 0) {
     Agreement slanted = largest_agreement(sheared(places, cut), window, settings.edge_slope());
-    if (slanted.weight > square.weight + kEnds.slanted)
-      square = std::move(slanted);
+    if (slanted.weight > best.weight + kEnds.slanted)
+      best = std::move(slanted);
     else
       cut = 0;
   }
-  Places on_edge = std::move(square.places);
+  Places& on_edge = best.places;
   // What is seen of the plate before something else tells no more than that it reaches so far.
-  const auto clear = [](const EdgeCrossing& place) { return place.sharp && !place.occluded; };
   if (2 * std::count_if(on_edge.begin(), on_edge.end(), clear) >=
       static_cast<std::ptrdiff_t>(on_edge.size()))
     std::erase_if(on_edge, [](const EdgeCrossing& place) { return place.occluded; });
   // A lone stripe that ends beside the seam, or cannot be seen to, ends for another reason.
   if (on_edge.size() == 1 && (on_edge[0].away <= kVisibility.near_seam || !on_edge[0].sharp))
-    return std::nullopt;
+    on_edge.clear();
+  return {std::move(on_edge), cut};
+}
 
-  if (on_edge.empty()) return std::nullopt;
-
+std::optional<PlateEdge> edge_through(Places on_edge, double cut,
+                                      const SeamFindingSettings& settings) {
   EdgeFit fit = through_the_middle(on_edge);
   const double slope = cut != 0         ? kEnds.steepest
                        : fit.slope == 0 ? settings.edge_slope()
@@ -196,7 +196,7 @@ std::optional<PlateEdge> find_edge(const ScanCloud& cloud, const PlateStripes& s
   }
   PlateEdge edge;
   edge.along = fit.at_seam;
-  edge.slope = cut;
+  edge.slope = cut == 0 ? 0 : cut + fit.slope;
   const auto mean = [&on_edge](double EdgeCrossing::*value) {
     double sum = 0;
     for (const EdgeCrossing& place : on_edge) sum += place.*value;
@@ -217,6 +217,22 @@ std::optional<PlateEdge> find_edge(const ScanCloud& cloud, const PlateStripes& s
                                      })
                         ->away;
   return edge;
+}
+
+}  // namespace
+
+std::optional<PlateEdge> find_edge(const ScanCloud& cloud, const PlateStripes& stripes,
+                                   SeamSide side, const EdgeWindow& window, const Scales& scales,
+                                   const SeamFindingSettings& settings) {
+  Places places;
+  // What lies farther from the seam is the plate's other edge, along the seam.
+  const double far = stripes.reach - kVisibility.far_edge;
+  for (const auto& run : stripes.runs)
+    if (const auto place = edge_crossing(cloud, run, stripes, side, scales, settings))
+      if (place->away < far && (place->sharp || place->away > kVisibility.near_seam))
+        places.push_back(*place);
+  const auto [on_edge, cut] = places_on_edge(places, window, settings);
+  return on_edge.empty() ? std::nullopt : edge_through(on_edge, cut, settings);
 }
 
 CommonEnd end_of_both(const PlateEdge& a, const PlateEdge& b, SeamSide side) {

@@ -1,0 +1,175 @@
+#include "services/seam_finding/joints/parallel_joint.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "services/seam_finding/coverage/coverage.hpp"
+#include "services/seam_finding/coverage/parallel_stations.hpp"
+#include "services/seam_finding/fit/plane_fit.hpp"
+#include "services/seam_finding/joints/constants.hpp"
+#include "services/seam_finding/joints/parallel_joint_type.hpp"
+
+namespace arcstart::seam_finding {
+namespace {
+
+// The first and the last of the sections that the transitions lie in.
+std::pair<int, int> sections_of(const std::vector<Transition>& transitions) {
+  const auto [first, last] = std::minmax_element(
+      transitions.begin(), transitions.end(),
+      [](const Transition& a, const Transition& b) { return a.section < b.section; });
+  return {first->section, last->section};
+}
+
+// Where one face holds two plates at unlike heights, a plate that goes on behind the other's end
+// lies on the other's side, too: there it is not the other plate.
+void keep_own_height(const ScanCloud& cloud, double near_mm, std::array<JointPlate, 2>& plates) {
+  for (int j = 0; j < 2; ++j)
+    std::erase_if(plates[j].points, [&](int i) {
+      return std::abs(plates[j].plane.signed_distance(cloud.points[i])) >
+             std::abs(plates[1 - j].plane.signed_distance(cloud.points[i])) + 2 * near_mm;
+    });
+}
+
+// A plate's points on its own side of its border, and the plane through those near it.
+JointPlate plate_of(const ScanCloud& cloud, const TransitionLine& candidate, const Face& face,
+                    int plate, double across_of_line, double slope, double contact) {
+  const double outward = plate == 0 ? -1 : 1;
+  JointPlate result;
+  result.contact = contact;
+  result.away = outward * candidate.frame.across;
+  PlaneSums sums(candidate.frame.origin);
+  const auto [first, last] = sections_of(candidate.transitions);
+  for (const int i : face.points) {
+    const Eigen::Vector3d p = candidate.frame.of(cloud.points[i]);
+    const double away = outward * (p.y() - across_of_line - slope * p.x());
+    if (away < 0) continue;
+    result.points.push_back(i);
+    // Beyond the seam's ends another plate may lie on this side.
+    const int stripe = cloud.origins[i].stripe;
+    if (candidate.by_runs && (stripe < first || stripe > last)) continue;
+    if (away < kPlanes.fit_reach && !cloud.origins[i].segment_end) sums.add(cloud.points[i]);
+  }
+  result.plane = face.plane;
+  if (sums.weight() >= 20) {
+    const auto fit = sums.fit();
+    if (fit.spread[0] > 1)
+      result.plane = fit.plane.normal.dot(face.plane.normal) < 0 ? fit.plane.flipped() : fit.plane;
+  }
+  result.points = without_fragments(cloud, result.points);
+  return result;
+}
+
+void judge(const ScanCloud& cloud, const TransitionLine& candidate, const Scales& scales,
+           const SeamFindingSettings& settings, Joint& joint) {
+  joint.coverage = find_coverage(stations_of_both(stations_by_edge(cloud, joint, scales)), scales);
+  const std::array<Line, 2>& edges = joint.parallel->edges;
+  const double reach = std::min(reach_of(cloud, joint.plates[0], edges[0]),
+                                reach_of(cloud, joint.plates[1], edges[1]));
+  const double share = std::min(1.0, candidate.share);
+  joint.score = joint.coverage.covered * share * share * std::min(1.0, reach / kJoints.full_reach) *
+                (joint.parallel->root_hidden ? kJoints.hidden_root : 1);
+  if (joint.flaw) return;
+  using Code = Reason::Code;
+  if (angle_between(joint.plates[0].plane.normal, joint.plates[1].plane.normal) >
+      settings.parallel_tolerance_deg * kDegree)
+    joint.flaw = {Code::kNotParallel};
+  else if (share < kJoints.through)
+    joint.flaw = {Code::kFewStripesShow, share};
+  else if (joint.parallel->seam.variance > kJoints.unsteady * kJoints.unsteady)
+    joint.flaw = {Code::kEdgesNotStraight};
+  else if (reach < kJoints.least_reach)
+    joint.flaw = {Code::kPlateNarrow};
+  else if (joint.coverage.stripes < settings.stripes_min)
+    joint.flaw = {Code::kFewStripesCross, static_cast<double>(joint.coverage.stripes)};
+  else if (joint.coverage.covered < kJoints.shortest_doubtful)
+    joint.flaw = {Code::kShortlySeen, joint.coverage.covered};
+}
+
+// A stripe that goes straight on across a gap runs over what lies flush beyond the seam's end, as a
+// run-off tab: what it shows is neither plate. A bead between the plates is not as flat.
+void leave_out_what_runs_across(const ScanCloud& cloud, const Scales& scales, Joint& joint) {
+  if (!cloud.organised() || joint.type == JointType::kLap) return;
+  const std::array<Line, 2>& edges = joint.parallel->edges;
+  const Eigen::Vector3d across = joint.plates[1].away;
+  struct Between {
+    int count = 0;
+    double least = std::numeric_limits<double>::infinity(), most = -least;
+  };
+  std::vector<Between> stripes(cloud.stripes.size());
+  for (int i = 0; i < cloud.size(); ++i) {
+    const Eigen::Vector3d& p = cloud.points[i];
+    const double along = edges[0].along(p);
+    const double from = across.dot(p - edges[0].at(along)),
+                 to = across.dot(edges[1].at(edges[1].along(p)) - p);
+    if (from < kJoints.off_border || to < kJoints.off_border) continue;
+    Between& between = stripes[cloud.origins[i].stripe];
+    const double height = joint.plates[from > to ? 1 : 0].plane.signed_distance(p);
+    ++between.count;
+    between.least = std::min(between.least, height), between.most = std::max(between.most, height);
+  }
+  const auto runs_across = [&](int i) {
+    const Between& between = stripes[cloud.origins[i].stripe];
+    return between.count >= kModel.sure_points && between.least > -scales.tolerance &&
+           between.most < scales.tolerance && between.most - between.least < 2 * near_plate(scales);
+  };
+  for (JointPlate& plate : joint.plates) std::erase_if(plate.points, runs_across);
+}
+
+// In the middle of the scan's way a plate that a stripe leaves is there for the width alone.
+void measure_gaps(const ScanCloud& cloud, const TransitionLine& candidate, Joint& joint) {
+  ParallelSeam& flat = *joint.parallel;
+  if (joint.type == JointType::kLap) return;
+  const Eigen::Vector3d across = (joint.line.direction.cross(candidate.frame.normal)).normalized();
+  const double width = std::abs(across.dot(flat.edges[1].point - flat.edges[0].point));
+  double steps = 0;  // across, between a thinned-out stripe's points at the gap
+  int downsampled = 0;
+  for (const Transition& transition : candidate.transitions) {
+    const Eigen::Vector3d &a = cloud.points[transition.last], &b = cloud.points[transition.first];
+    double seen = std::abs(across.dot(b - a));
+    if (!cloud.origins[transition.last].segment_end ||
+        !cloud.origins[transition.first].segment_end) {
+      steps += seen / static_cast<double>(transition.between.size() + 1);
+      ++downsampled;
+      seen = width;  // such a stripe tells no more than the lines through all of them
+    }
+    flat.gaps.push_back({joint.line.along((a + b) / 2), seen});
+  }
+  if (flat.narrow) return;
+  // Narrow gaps show where a point happens to lie in them: their stripes err alike.
+  const double step = downsampled > 0 ? steps / downsampled : 0;
+  flat.gap_deviation = std::sqrt(2.0) * std::hypot(kJoints.end_deviation, step / std::sqrt(12.0));
+}
+
+}  // namespace
+
+std::optional<Joint> joint_at(const ScanCloud& cloud, const std::vector<Face>& faces,
+                              const TransitionLine& candidate, const Scales& scales,
+                              const SeamFindingSettings& settings) {
+  if (static_cast<int>(candidate.transitions.size()) < settings.stripes_min) return std::nullopt;
+  std::vector<LinePlace> places;
+  for (const Transition& transition : candidate.transitions) {
+    const Eigen::Vector3d p = place_of(cloud, candidate.frame, transition);
+    places.push_back({p.x(), p.y(), 0, 1});
+  }
+  const auto rough = fit_line(places, 1);
+  if (!rough) return std::nullopt;
+  Joint joint;
+  joint.faces = candidate.faces;
+  for (int j = 0; j < 2; ++j)
+    joint.plates[j] = plate_of(cloud, candidate, faces[candidate.faces[j]], j, rough->across_at(0),
+                               rough->slope, scales.contact);
+  if (joint.faces[0] == joint.faces[1]) keep_own_height(cloud, near_plate(scales), joint.plates);
+  if (joint.plates[0].points.empty() || joint.plates[1].points.empty()) return std::nullopt;
+  if (!set_type(cloud, candidate, scales, settings, joint)) return std::nullopt;
+  for (int j = 0; j < 2; ++j)
+    joint.plates[j].away =
+        (j == 0 ? -1 : 1) * candidate.frame.normal.cross(joint.line.direction).normalized();
+  leave_out_what_runs_across(cloud, scales, joint);
+  if (joint.plates[0].points.empty() || joint.plates[1].points.empty()) return std::nullopt;
+  judge(cloud, candidate, scales, settings, joint);
+  if (!joint.flaw) measure_gaps(cloud, candidate, joint);
+  return joint;
+}
+
+}  // namespace arcstart::seam_finding
