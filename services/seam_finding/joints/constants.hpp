@@ -122,9 +122,10 @@ struct JointConstants {
   // bends make none. Sheet metal is thinner only in bodies and cabinets - bench, whose sheets are
   // of 0.8 mm and more.
   double least_step = 0.6;
-  // mm; and where a butt joint or a groove alone is wanted: the tops' mismatch, at most. - ISO
-  // 5817, 507: by level D a quarter of the thickness, of plates of 8 mm.
-  double most_mismatch = 2;
+  // mm; and where a butt joint or a groove alone is wanted: the tops' mismatch, at most - ISO 5817,
+  // 507: by level B a tenth of the thickness, of plates of 10 mm. More may be a lap of thin sheet,
+  // which nothing seen from above tells from it.
+  double most_mismatch = 1;
   // Score over that of a joint found by the faces' planes, at least, for one found by the stripes'
   // runs or in faces taken together: where the planes tell, they tell more closely - bench.
   double clearly_better = 1.05;

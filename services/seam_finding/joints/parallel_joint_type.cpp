@@ -127,7 +127,7 @@ bool is_lap(const ScanCloud& cloud, const TransitionLine& candidate,
   const bool lap = is_wanted(JointType::kLap, settings);
   if (lap && !flush && step < settings.lap_thickness_min_mm)
     return step >= kJoints.least_step && !lower_plate_ends(cloud, candidate, planes, near_mm);
-  if (flush && !lap) return step >= std::max(settings.lap_thickness_min_mm, kJoints.most_mismatch);
+  if (flush && !lap) return step >= kJoints.most_mismatch;
   return step >= settings.lap_thickness_min_mm;
 }
 

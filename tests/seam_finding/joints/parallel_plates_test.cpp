@@ -105,19 +105,28 @@ TEST_CASE("a lap of thin sheet is a lap where one is asked for, and begins with 
   }
 }
 
-TEST_CASE("plates whose tops differ by less than 2 mm are a butt joint where one is asked for") {
-  const double raised = GENERATE(-1.7, 1.7);
-  for (int seed = 1; seed <= seeds; ++seed) {
-    const SeamResult result = find(stepped_butt(seed, 0, raised), "butt", seed);
-    INFO("seed " << seed << ", raised by " << raised << " mm: " << in_words(result.reason));
-    REQUIRE(result.verdict == SeamResult::Verdict::kFound);
-    CHECK(result.joint_type == "butt");
-  }
+TEST_CASE("plates whose tops differ by less than 1 mm are a butt joint where one is asked for") {
+  for (const double raised : {-0.85, 0.85})
+    for (int seed = 1; seed <= seeds; ++seed) {
+      const SeamResult result = find(stepped_butt(seed, 0, raised), "butt", seed);
+      INFO("seed " << seed << ", raised by " << raised << " mm: " << in_words(result.reason));
+      REQUIRE(result.verdict == SeamResult::Verdict::kFound);
+      CHECK(result.joint_type == "butt");
+    }
+}
+
+TEST_CASE("a lap of thin sheet is no butt joint") {
+  for (const double thickness : {1.2, 2.0})
+    for (int seed = 1; seed <= seeds; ++seed) {
+      INFO("seed " << seed << ", " << thickness << " mm");
+      CHECK(find(thin_lap(seed, thickness, 0), "butt", seed).verdict !=
+            SeamResult::Verdict::kFound);
+    }
 }
 
 TEST_CASE("beside a step the seam's deviation across covers what the higher edge hides") {
   // The edges touch: where the truth is, the higher plate's edge is seen, the lower one's is not.
-  const double raised = GENERATE(-1.6, -1, 1, 1.6);
+  const double raised = GENERATE(-0.85, 0.85);
   for (int seed = 1; seed <= seeds; ++seed) {
     const Scene scene = stepped_butt(seed, 1, raised);
     const SeamResult result = find(scene, "butt", seed);
