@@ -269,7 +269,7 @@ std::optional<LapRoot> lap_root(const ScanCloud& cloud, const std::vector<Transi
       const double height = lower.signed_distance(cloud.points[i]);
       // A cut that faces away from the camera is not seen: what lies between is the step's
       // rounding.
-      if (outward * frame.across.dot(cloud.seen_from(i) - cloud.points[i]) < 0) continue;
+      if (faces_away(i)) continue;
       if (height < kJoints.off_plate * near_mm || height > step_mm - kJoints.off_plate * near_mm ||
           cloud.origins[i].segment_end)
         continue;

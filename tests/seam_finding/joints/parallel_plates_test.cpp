@@ -7,7 +7,9 @@
 
 #include "services/seam_finding/answer/wording.hpp"
 #include "services/seam_finding/background/surface_background.hpp"
+#include "services/seam_finding/cloud/scales.hpp"
 #include "services/seam_finding/find_seam.hpp"
+#include "services/seam_finding/joints/parallel_joints.hpp"
 #include "tests/seam_finding/support/synthetic_scan.hpp"
 
 using namespace arcstart;
@@ -89,6 +91,32 @@ TEST_CASE("plates side by side at unlike heights are parted, though one plane li
   }
   INFO("raised by " << raised << " mm");
   CHECK(right == seeds);
+}
+
+TEST_CASE(
+    "a joint is whole though its faces were laid out as a plate with half of the other, and the "
+    "rest") {
+  const Scene scene = stepped_butt(1, 0, 0);
+  const Axes axes(scene);
+  const ScanCloud cloud = make_scan(scene, with_bends, 1).cloud;
+  const double length = (scene.end - scene.start).norm();
+  const Plane top{axes.out, -axes.out.dot(scene.start)};
+  std::vector<Face> faces(2);
+  for (int i = 0; i < cloud.size(); ++i) {
+    const Vector3d from_start = cloud.points[i] - scene.start;
+    const double along = axes.along.dot(from_start), across = axes.across.dot(from_start);
+    if (std::abs(top.signed_distance(cloud.points[i])) > 0.5 || along < -5 || along > length + 5)
+      continue;
+    faces[across > 0 || along < length / 2 ? 0 : 1].points.push_back(i);
+  }
+  for (Face& face : faces) face.plane = top;
+  SeamFindingSettings settings;
+  settings.joint_type = "butt";
+  const Scales scales = scales_of(cloud, measure_sampling(cloud), 0);
+  double longest = 0;
+  for (const Joint& joint : find_parallel_joints(cloud, faces, scales, settings))
+    if (!joint.flaw) longest = std::max(longest, joint.coverage.covered);
+  CHECK(longest > 0.9 * length);
 }
 
 TEST_CASE("a lap of thin sheet is a lap where one is asked for, and begins with the sheet") {
