@@ -98,7 +98,7 @@ SeamResult find_seam(const ScanCloud& cloud, const Segmentation& segmentation,
   if (faces.empty())
     return refused({Code::kNoPlane, static_cast<double>(segmentation.workpiece.size()),
                     static_cast<double>(cloud.size())});
-  faces = without_background(some, scan.background(Stage::kSearch), std::move(faces), scales);
+  faces = without_background(some, scan.segmentation(Stage::kSearch), std::move(faces), scales);
   if (faces.empty()) return refused({Code::kBackgroundGoesOn});
 
   const auto planes = static_cast<double>(faces.size());

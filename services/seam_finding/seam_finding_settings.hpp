@@ -14,9 +14,10 @@ enum class StartRule { kEdges, kStripe, kCentroid };
 struct SeamFindingSettings {
   // Background. `surface`: nearer than the distance to the background's local surface.
   // `neighbours`: the paper's rule, the K-th nearest background point is nearer than that; it needs
-  // stripes closer together than the distance.
+  // stripes closer together than the distance. The thinnest sheet that lies on the table, of 0.8 mm,
+  // is thicker than that; what two scans of one table differ by is less.
   BackgroundRule background_rule = BackgroundRule::kSurface;
-  double background_distance_mm = 1.5;
+  double background_distance_mm = 0.7;
   int background_neighbours = 3;  // K
 
   // Planes. `ranked`: all planes of what is left, and of all their pairs the best joint. `largest`:
@@ -33,8 +34,10 @@ struct SeamFindingSettings {
   // it from the edge of a box, so that there must be none. `lap`, `butt`, `v` (groove). `any`: tee,
   // lap, butt or v.
   std::string joint_type = "tee";
-  double angle_deg = 90;            // theta of Eq. 6 between the plates of a tee or corner ...
-  double angle_tolerance_deg = 20;  // ... and its epsilon
+  // Theta of Eq. 6 between the plates of a tee or corner, and its epsilon: fillet welds join faces
+  // under 60 to 120 deg (EN 1993-1-8, 4.3.2.1).
+  double angle_deg = 90;
+  double angle_tolerance_deg = 30;
   double outside_corner_angle_deg = 90;
   double outside_corner_tolerance_deg = 30;
   double parallel_tolerance_deg = 4;  // epsilon of lap, butt and v, whose theta is 0

@@ -7,15 +7,23 @@
 
 namespace arcstart::seam_finding {
 
+// What the background's own scan says of a point.
+enum class Belonging : char {
+  kBackground,
+  kUnknown,  // the background's surface is not known there
+  kOff       // it is known there, and the point is not on it
+};
+
 class Background {
  public:
   virtual ~Background() = default;
   virtual bool contains(const Eigen::Vector3d& point) const = 0;
 
-  // Appends for each of the points whether it is contained. Fast where neighbouring points follow
-  // each other.
-  virtual void classify(std::span<const Eigen::Vector3d> points, std::vector<char>& inside) const {
-    for (const Eigen::Vector3d& point : points) inside.push_back(contains(point));
+  // Appends one for each of the points. Fast where neighbouring points follow each other.
+  virtual void classify(std::span<const Eigen::Vector3d> points,
+                        std::vector<Belonging>& belonging) const {
+    for (const Eigen::Vector3d& point : points)
+      belonging.push_back(contains(point) ? Belonging::kBackground : Belonging::kUnknown);
   }
 };
 

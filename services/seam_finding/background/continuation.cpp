@@ -10,6 +10,13 @@
 namespace arcstart::seam_finding {
 namespace {
 
+bool lies_off_background(const Face& face, const std::vector<int>& off) {
+  const auto lies_off = std::count_if(face.points.begin(), face.points.end(), [&](int i) {
+    return std::binary_search(off.begin(), off.end(), i);
+  });
+  return 2 * lies_off > static_cast<std::ptrdiff_t>(face.points.size());
+}
+
 bool continues_background(const ScanCloud& scan, const std::vector<int>& background,
                           const Face& face, const Scales& scales) {
   Eigen::Vector3d low = scan.points[face.points.front()], high = low;
@@ -32,10 +39,11 @@ bool continues_background(const ScanCloud& scan, const std::vector<int>& backgro
 
 }  // namespace
 
-std::vector<Face> without_background(const ScanCloud& cloud, const std::vector<int>& background,
+std::vector<Face> without_background(const ScanCloud& cloud, const Segmentation& segmentation,
                                      std::vector<Face> faces, const Scales& scales) {
   std::erase_if(faces, [&](const Face& face) {
-    return continues_background(cloud, background, face, scales);
+    return !lies_off_background(face, segmentation.off) &&
+           continues_background(cloud, segmentation.background, face, scales);
   });
   return faces;
 }

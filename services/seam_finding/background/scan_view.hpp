@@ -23,7 +23,9 @@ class ScanView {
 
   const ScanCloud& points_for(Stage stage) const;
   // Of those points.
-  const std::vector<int>& background(Stage stage) const { return segmentation(stage).background; }
+  const Segmentation& segmentation(Stage stage) const {
+    return stage == Stage::kSearch && has_fewer_ ? fewer_segmentation_ : segmentation_;
+  }
   const std::vector<int>& workpiece(Stage stage) const { return segmentation(stage).workpiece; }
 
   bool has_fewer() const { return has_fewer_; }
@@ -33,10 +35,6 @@ class ScanView {
                                 double tolerance_mm) const;
 
  private:
-  const Segmentation& segmentation(Stage stage) const {
-    return stage == Stage::kSearch && has_fewer_ ? fewer_segmentation_ : segmentation_;
-  }
-
   const ScanCloud& cloud_;
   const Segmentation& segmentation_;
   const DownsampledCloud& fewer_;

@@ -11,6 +11,7 @@ namespace arcstart::seam_finding {
 // A cloud's points by whether they are background, indices, rising.
 struct Segmentation {
   std::vector<int> background, workpiece;
+  std::vector<int> off;  // of the workpiece, what lies off a background that is known there
   int size() const { return static_cast<int>(background.size() + workpiece.size()); }
 };
 // Goes on behind the last point that is segmented already: a scan can be segmented stripe by

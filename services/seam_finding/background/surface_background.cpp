@@ -72,15 +72,17 @@ SurfaceBackground::Surroundings SurfaceBackground::look_around(const NeighbourGr
   return around;
 }
 
-bool SurfaceBackground::nearest_contains(const Eigen::Vector3d& point,
-                                         std::span<const int> cells) const {
+Belonging SurfaceBackground::by_nearest(const Eigen::Vector3d& point,
+                                        std::span<const int> cells) const {
   int nearest = cells.front();
   double least = INFINITY;
   for (const int i : cells)
     if (const double squared = (surfaces_[i].centroid - point).squaredNorm(); squared < least)
       nearest = i, least = squared;
   const Surface& surface = surfaces_[nearest];
-  if (surface.is_plane) return std::abs(surface.plane.signed_distance(point)) <= distance_;
+  if (surface.is_plane)
+    return std::abs(surface.plane.signed_distance(point)) <= distance_ ? Belonging::kBackground
+                                                                       : Belonging::kOff;
   const double reach = std::max(distance_, kBackground.rough_spacings * sampling_.spacing);
   const auto reaches = [&](int i) {
     const Eigen::Vector3d to_box =
@@ -92,20 +94,22 @@ bool SurfaceBackground::nearest_contains(const Eigen::Vector3d& point,
       if ((grid_.points()[inside[j]] - point).squaredNorm() <= reach * reach) return true;
     return false;
   };
-  return reaches(nearest) || std::any_of(cells.begin(), cells.end(), reaches);
+  return reaches(nearest) || std::any_of(cells.begin(), cells.end(), reaches)
+             ? Belonging::kBackground
+             : Belonging::kUnknown;
 }
 
 bool SurfaceBackground::contains(const Eigen::Vector3d& point) const {
-  std::vector<char> inside;
-  classify({&point, 1}, inside);
-  return inside.front();
+  std::vector<Belonging> belonging;
+  classify({&point, 1}, belonging);
+  return belonging.front() == Belonging::kBackground;
 }
 
 // A stripe runs through one cell for many points, or to and fro between two along their border.
 // Whichever surface is the nearest there: the answer is plain but for a narrow range of distances
 // from the common one.
 void SurfaceBackground::classify(std::span<const Eigen::Vector3d> points,
-                                 std::vector<char>& inside) const {
+                                 std::vector<Belonging>& belonging) const {
   const double half = grid_.cell_size() / 2;
   struct Place {
     Eigen::Vector3d centre = Eigen::Vector3d::Constant(INFINITY);  // of no cell yet
@@ -129,8 +133,8 @@ void SurfaceBackground::classify(std::span<const Eigen::Vector3d> points,
     grid_.for_each_around(cell, [&](int i) { here->cells.push_back(i); });
     here->around = look_around(cell, here->cells);
   };
-  const std::size_t first = inside.size();
-  inside.resize(first + points.size(), false);
+  const std::size_t first = belonging.size();
+  belonging.resize(first + points.size(), Belonging::kUnknown);
   for (std::size_t i = 0; i < points.size(); ++i) {
     if (!is_here(points[i])) {
       std::swap(here, before);
@@ -139,9 +143,9 @@ void SurfaceBackground::classify(std::span<const Eigen::Vector3d> points,
     const Surroundings& around = here->around;
     if (around.cells.empty()) continue;
     const double about = std::abs(around.common.signed_distance(points[i]));
-    inside[first + i] =
-        about + around.apart < distance_ ||
-        (about - around.apart <= distance_ && nearest_contains(points[i], around.cells));
+    belonging[first + i] = about + around.apart < distance_   ? Belonging::kBackground
+                           : about - around.apart > distance_ ? Belonging::kOff
+                                                              : by_nearest(points[i], around.cells);
   }
 }
 

@@ -24,7 +24,8 @@ class SurfaceBackground : public Background {
   SurfaceBackground(const ScanCloud& cloud, double distance_mm);
   SurfaceBackground(const SurfaceBackground&) = delete;  // its parts refer to each other
   bool contains(const Eigen::Vector3d& point) const override;
-  void classify(std::span<const Eigen::Vector3d> points, std::vector<char>& inside) const override;
+  void classify(std::span<const Eigen::Vector3d> points,
+                std::vector<Belonging>& belonging) const override;
 
  private:
   struct Surface {
@@ -41,7 +42,7 @@ class SurfaceBackground : public Background {
     double apart = 0;  // mm; infinite where not all are planes
   };
   Surroundings look_around(const NeighbourGrid::Cell& middle, std::span<const int> cells) const;
-  bool nearest_contains(const Eigen::Vector3d& point, std::span<const int> cells) const;
+  Belonging by_nearest(const Eigen::Vector3d& point, std::span<const int> cells) const;
 
   Sampling sampling_;
   double distance_;

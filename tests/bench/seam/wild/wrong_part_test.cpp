@@ -91,7 +91,8 @@ TEST_CASE("the round edge of a hollow section is no outside corner of two plates
 }
 
 TEST_CASE("the edge of a solid block is no outside corner of two plates") {
-  WildScene scene = scene_of(lone_plate(), "outside_corner");
+  WildScene scene = scene_of({}, "outside_corner");
+  scene.works.clear();
   scene.solids = {block(70, 45, 45, {950, 80, 0}, -18)};
   const seam_t edge = WildCase(scene).answer(true);
   INFO(edge.reason);

@@ -1,0 +1,52 @@
+// What is asked for lies there, in a shape or a place that is easily refused.
+#include <catch2/catch.hpp>
+
+#include "paths.hpp"
+#include "tests/bench/seam/wild/judgement.hpp"
+#include "tests/bench/seam/wild/scene_file.hpp"
+#include "tests/bench/seam/wild/wild_case.hpp"
+
+using namespace arcstart;
+using cell_simulator::WildScene;
+
+namespace {
+
+WildScene bare_tee() {
+  WildScene scene = read_scene(ARCSTART_SOURCE "/tests/bench/seam/wild/plain_tee.json");
+  scene.solids.clear();
+  return scene;
+}
+
+// Found, right, and nothing of it wrong and sure.
+void check_answered(const WildScene& scene) {
+  const WildCase wild(scene);
+  const seam_t seam = wild.answer(true);
+  INFO("refused with " << seam.refusal << ": " << seam.reason);
+  REQUIRE(seam.verdict == seam_t::FOUND);
+  const WildJudgement judgement = judge(seam, wild.truth());
+  CHECK(judgement.right);
+  CHECK(judgement.silent.empty());
+}
+
+}  // namespace
+
+// EN 1993-1-8, 4.3.2.1: fillet welds join faces that meet under 60 to 120 deg.
+TEST_CASE("fillets of 60 to 120 deg are found") {
+  WildScene scene = bare_tee();
+  scene.works[0].joint = scene.asked = GENERATE("tee", "inside_corner");
+  scene.works[0].angle_deg = GENERATE(62, 118);
+  INFO(scene.asked << " of " << scene.works[0].angle_deg << " deg");
+  check_answered(scene);
+}
+
+// The table comes into its plane where the sheet lies a little askew, and where slots leave the
+// table's surface unknown some of the sheet itself is taken for table.
+TEST_CASE("a thin sheet on the table is no table") {
+  WildScene scene = bare_tee();
+  scene.works[0].first.thickness_mm = 1.2;
+  scene.works[0].tilt_deg = GENERATE(0.0, 1.5);
+  scene.table.slot_pitch_mm = GENERATE(0.0, 50.0);
+  INFO("askew by " << scene.works[0].tilt_deg << " deg, slots " << scene.table.slot_pitch_mm
+                   << " mm apart");
+  check_answered(scene);
+}
