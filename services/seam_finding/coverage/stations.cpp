@@ -34,7 +34,7 @@ Sights sights_of(const ScanCloud& cloud, const JointPlate& plate, const JointPla
   sights.away.reserve(plate.points.size());
   for (const int i : plate.points) {
     const double r = away.dot(cloud.points[i] - line.point);
-    if (r <= tolerance || r > kCoverage.slant_reach)
+    if (r <= tolerance || r > plate.round + kCoverage.slant_reach)
       continue;  // either plate's, or behind the other
     const double t = line.along(cloud.points[i]);
     sights.away.push_back(r);
@@ -59,8 +59,9 @@ double slant_of(const Sights& sights) {
 }
 
 // How far from the line a plate's nearest point can be where the stripe runs on to the line: points
-// nearer than the tolerance do not count, the others are a step apart, and one may be an outlier.
-double near_limit(Sights& sights, double tolerance, double contact) {
+// nearer than the tolerance, and on a round edge, do not count, the others are a step apart, and
+// one may be an outlier.
+double near_limit(Sights& sights, double tolerance, const JointPlate& plate) {
   std::vector<double> steps;
   steps.reserve(sights.away.size());
   auto first = sights.away.begin();
@@ -70,8 +71,9 @@ double near_limit(Sights& sights, double tolerance, double contact) {
     for (; first != last; ++first)
       if (first + 1 != last) steps.push_back(*(first + 1) - *first);
   }
-  if (steps.empty()) return contact;
-  return std::min(contact, tolerance + kCoverage.steps_to_line * quantile(steps, 0.9));
+  if (steps.empty()) return plate.contact;
+  return std::min(plate.contact,
+                  plate.round + tolerance + kCoverage.steps_to_line * quantile(steps, 0.9));
 }
 
 using Places = std::vector<std::optional<double>>;
@@ -140,7 +142,7 @@ Stations stripe_stations(const ScanCloud& cloud, const std::array<JointPlate, 2>
   Stations found;
   for (int j = 0; j < 2; ++j) {
     found.slant[j] = slant_of(sights[j]);
-    found.near[j] = near_limit(sights[j], scales.tolerance, plates[j].contact);
+    found.near[j] = near_limit(sights[j], scales.tolerance, plates[j]);
   }
   std::vector<Station>& stations = found.list;
   stations.resize(cloud.stripes.size());

@@ -6,6 +6,7 @@
 
 #include "common/geometry.hpp"
 #include "services/seam_finding/coverage/coverage.hpp"
+#include "services/seam_finding/coverage/round_edge.hpp"
 #include "services/seam_finding/fit/order_statistics.hpp"
 #include "services/seam_finding/joints/block_edge.hpp"
 #include "services/seam_finding/joints/constants.hpp"
@@ -23,7 +24,8 @@ Eigen::Vector3d middle(const ScanCloud& cloud, const std::vector<int>& points) {
 
 // A plate may show as several faces in one plane, parted by a shadow or by lost stripes.
 std::vector<int> with_pieces_of_the_plane(const ScanCloud& cloud, const std::vector<Face>& faces,
-                                          int face, const Line& line, const Scales& scales) {
+                                          int face, const Line& line, double round,
+                                          const Scales& scales) {
   std::vector<int> points = faces[face].points;
   for (int k = 0; k < static_cast<int>(faces.size()); ++k) {
     if (k == face ||
@@ -32,7 +34,7 @@ std::vector<int> with_pieces_of_the_plane(const ScanCloud& cloud, const std::vec
     if (std::abs(faces[face].plane.signed_distance(middle(cloud, faces[k].points))) >
         2 * scales.tolerance)
       continue;
-    if (!touches(cloud, faces[k].points, line, contact_of(faces[k], scales))) continue;
+    if (!touches(cloud, faces[k].points, line, round + contact_of(faces[k], scales))) continue;
     const auto own = static_cast<std::ptrdiff_t>(points.size());
     points.insert(points.end(), faces[k].points.begin(), faces[k].points.end());
     std::inplace_merge(points.begin(), points.begin() + own, points.end());
@@ -50,6 +52,7 @@ struct Beside {
 
 Beside look_beside(const ScanCloud& cloud, const Joint& joint, int plate, double tolerance) {
   const bool outside = joint.type == JointType::kOutsideCorner;
+  const double in_under = kJoints.in_under + joint.plates[1 - plate].round;
   int before = 0, behind = 0;
   std::vector<double> distances, all;
   for (const int i : joint.plates[plate].points) {
@@ -63,7 +66,7 @@ Beside look_beside(const ScanCloud& cloud, const Joint& joint, int plate, double
     if (r > joint.plates[plate].contact) continue;
     const double side = (outside ? -1 : 1) * joint.plates[1 - plate].plane.signed_distance(point);
     before += side > tolerance;
-    behind += side < -(outside ? tolerance : std::max(tolerance, kJoints.in_under));
+    behind += side < -(outside ? tolerance : std::max(tolerance, in_under));
   }
   Beside beside;
   if (before > 0) beside.before = static_cast<double>(before) / (before + behind);
@@ -150,19 +153,25 @@ std::optional<Joint> pair_up(const ScanCloud& cloud, const std::vector<int>& lef
       std::min(std::abs(fold - wanted.angle), std::abs(M_PI - fold - wanted.angle));
   if (least > wanted.tolerance + kJoints.near_miss) return std::nullopt;
   const auto line = intersect(faces[a].plane, faces[b].plane, middle(cloud, faces[a].points));
-  if (!line || !touches(cloud, faces[a].points, *line, contact_of(faces[a], scales)) ||
-      !touches(cloud, faces[b].points, *line, contact_of(faces[b], scales)))
-    return std::nullopt;
+  if (!line) return std::nullopt;
   Joint joint;
   joint.type = type;
   joint.faces = {a, b};
   joint.line = *line;
   joint.line.direction = along_search(cloud, line->direction);
   for (int j = 0; j < 2; ++j) {
-    joint.plates[j].plane = faces[joint.faces[j]].plane;
-    joint.plates[j].contact = contact_of(faces[joint.faces[j]], scales);
-    joint.plates[j].points = with_pieces_of_the_plane(cloud, faces, joint.faces[j], *line, scales);
+    const Face& face = faces[joint.faces[j]];
+    JointPlate& plate = joint.plates[j];
+    plate.plane = face.plane;
+    if (type != JointType::kOutsideCorner)
+      plate.round = round_edge(cloud, face.points, face.plane, faces[joint.faces[1 - j]].plane,
+                               *line, scales);
+    plate.contact = plate.round + contact_of(face, scales);
+    if (!touches(cloud, face.points, *line, plate.contact)) return std::nullopt;
   }
+  for (int j = 0; j < 2; ++j)
+    joint.plates[j].points = with_pieces_of_the_plane(cloud, faces, joint.faces[j], *line,
+                                                      joint.plates[j].round, scales);
   const auto measure = [&](Joint& j) {
     j.angle = open_angle(j);
     if (j.type == JointType::kOutsideCorner)

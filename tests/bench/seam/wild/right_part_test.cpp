@@ -50,3 +50,16 @@ TEST_CASE("a thin sheet on the table is no table") {
                    << " mm apart");
   check_answered(scene);
 }
+
+// Its face begins where the round ends, and the base plate is seen in under it.
+TEST_CASE("a hollow section on a plate is a tee, however round its edges are") {
+  WildScene scene = bare_tee();
+  cell_simulator::WildPlate& upright = scene.works[0].second;
+  upright.section = "hollow";
+  upright.thickness_mm = 5, upright.depth_mm = 40, upright.away_mm = 60;
+  upright.corner_radius_mm = GENERATE(0.0, 8.0, 12.0);
+  scene.works[0].gap_begin_mm = scene.works[0].gap_end_mm = GENERATE(0.0, 1.5);
+  INFO("radius " << upright.corner_radius_mm << " mm, gap " << scene.works[0].gap_begin_mm
+                 << " mm");
+  check_answered(scene);
+}
