@@ -17,6 +17,12 @@ struct ParallelEdges {
   bool together = false;
 };
 
+// Those of the transitions in which nothing stands before both plates, as a bead or a cable that
+// hides their edges. planes, near_mm: as below.
+std::vector<Transition> showing_edges(const ScanCloud& cloud,
+                                      const std::vector<Transition>& transitions,
+                                      const std::array<Plane, 2>& planes, double near_mm);
+
 // planes: of the plates. near_mm: how far a point of a plate lies from its plane. pitch: between
 // points of a stripe; mm.
 ParallelEdges edges_of(const ScanCloud& cloud, const std::vector<Transition>& transitions,
