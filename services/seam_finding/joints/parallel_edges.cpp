@@ -15,9 +15,10 @@ int neighbour(const Transition& transition, int plate) {
   return plate == 0 ? transition.last : transition.first;
 }
 
-// The points that follow on a plate's last one in the same segment, outward, as long as they fall.
-std::vector<int> falling(const ScanCloud& cloud, const Transition& transition, const Plane& plane,
-                         int plate) {
+// The points that follow on a plate's last one in the same segment, outward, as long as they fall
+// as a cut does: what is flatter lies below the gap.
+std::vector<int> falling(const ScanCloud& cloud, const Transition& transition,
+                         const PlateFrame& frame, const Plane& plane, int plate, double near_mm) {
   std::vector<int> run;
   int before = neighbour(transition, plate);
   double height = plane.signed_distance(cloud.points[before]);
@@ -25,7 +26,9 @@ std::vector<int> falling(const ScanCloud& cloud, const Transition& transition, c
     const double h = plane.signed_distance(cloud.points[i]);
     if (cloud.organised() && cloud.origins[i].segment != cloud.origins[before].segment)
       return false;
-    if (h > height) return false;
+    const double across = std::abs(frame.across.dot(cloud.points[i] - cloud.points[before]));
+    const bool flat = height - h < std::tan(kJoints.least_top_fold) * across - near_mm;
+    if (h > height || (flat && !run.empty())) return false;
     run.push_back(i), before = i, height = h;
     return true;
   };
@@ -240,7 +243,7 @@ ParallelEdges edges_of(const ScanCloud& cloud, const std::vector<Transition>& tr
     std::vector<LinePlace> cut, ends_on_cut;
     double deepest = 0;
     for (const Transition& transition : transitions) {
-      const auto run = falling(cloud, transition, planes[plate], plate);
+      const auto run = falling(cloud, transition, frame, planes[plate], plate, near_mm);
       if (const int i = end_on_cut(cloud, transition, planes[plate], plate, near_mm); i >= 0) {
         const Eigen::Vector3d p = frame.of(cloud.points[i]);
         ends_on_cut.push_back({p.x(), p.y(), 0, kJoints.cut_deviation});
@@ -258,6 +261,7 @@ ParallelEdges edges_of(const ScanCloud& cloud, const std::vector<Transition>& tr
         deepest = std::min(deepest, cut.back().height);
       }
     }
+    borders.depth = std::max(borders.depth, -deepest);
     if (cut.size() >= kJoints.cut_points && -deepest > kJoints.least_depth) {
       // Falling away from plate 0 is toward larger across. What does not slant open is cut square.
       if (const auto fit = fit_line(cut, kJoints.free_cut);

@@ -13,6 +13,7 @@ namespace arcstart::seam_finding {
 struct ParallelEdges {
   std::array<std::optional<LineFit>, 2> plates;  // where each ends, in its own plane
   std::array<std::optional<double>, 2> slants;   // of a cut that falls away: from the normal; rad
+  double depth = 0;                              // down to which a cut was seen; mm
   // Of a narrow gap: both borders are told by all stripes together better than by any alone.
   bool together = false;
 };

@@ -65,7 +65,7 @@ bool set_lap(const ScanCloud& cloud, const TransitionLine& candidate,
   using Code = Reason::Code;
   if (!is_wanted(JointType::kLap, settings))
     joint.flaw = {Code::kLapNotWanted};
-  else if (seam.step > settings.lap_thickness_max_mm)
+  else if (seam.step > settings.lap_thickness_max_mm + kJoints.most_root_gap)
     joint.flaw = {Code::kLapThickness, seam.step};
   else if (width > kJoints.step_shadow * seam.step + 2 * pitch)
     joint.flaw = {Code::kPlatesDoNotTouch};
@@ -99,13 +99,15 @@ void set_butt_or_groove(const TransitionLine& candidate, const ParallelEdges& ed
   joint.angle = groove ? 2 * seam.half_angle : M_PI;
   const double half_angle_max =
       (settings.v_angle_deg + settings.v_angle_tolerance_deg) / 2 * kDegree;
+  // Across it lies one side as deep as it was seen, and no more than that throws shadow on.
+  const double widest_groove = std::min(
+      settings.v_width_max_mm, (std::tan(seam.half_angle) + kJoints.step_shadow) * edges.depth);
   using Code = Reason::Code;
   if (!is_wanted(joint.type, settings))
     joint.flaw = {groove ? Code::kGrooveNotWanted : Code::kButtNotWanted};
   else if (groove && seam.half_angle > half_angle_max)
     joint.flaw = {Code::kGrooveAngle, 2 * seam.half_angle};
-  else if (width > (groove ? settings.v_width_max_mm : settings.butt_gap_max_mm) ||
-           width < -kJoints.overlap)
+  else if (width > (groove ? widest_groove : settings.butt_gap_max_mm) || width < -kJoints.overlap)
     joint.flaw = {Code::kGapWidth, width};
 }
 

@@ -122,3 +122,23 @@ TEST_CASE("edges behind a bar that lies along a groove are not put to its other 
       CHECK(std::abs(Axes(scene).across.dot(result.start - scene.start)) < 1);
     }
 }
+
+TEST_CASE("a lap's step is its upper plate and the gap under it") {
+  for (int seed = 1; seed <= seeds; ++seed) {
+    const SeamResult result = find(thin_lap(seed, 13, 0), "lap", seed);  // 12 mm, and 1 mm of gap
+    INFO("seed " << seed << ": " << in_words(result.reason));
+    CHECK(result.verdict == SeamResult::Verdict::kFound);
+  }
+}
+
+TEST_CASE("a gap over a backing strip is a butt joint's, no groove") {
+  int butts = 0;
+  for (int seed = 1; seed <= seeds; ++seed) {
+    Scene scene = scene_of("butt", seed);
+    const double length = (scene.end - scene.start).norm();
+    move(scene.boxes[1], -1.8 * Axes(scene).across);  // the gap is 2.8 mm wide
+    scene.boxes.push_back(lying(scene, {length / 2, -0.9, -3}, {length, 20, 2}));
+    butts += find(scene, "butt", seed).verdict == SeamResult::Verdict::kFound;
+  }
+  CHECK(butts == seeds);
+}
