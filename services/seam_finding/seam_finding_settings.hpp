@@ -47,7 +47,7 @@ struct SeamFindingSettings {
   double butt_gap_max_mm = 4;
   double v_angle_deg = 60;  // between the two slants
   double v_angle_tolerance_deg = 35;
-  double v_width_max_mm = 30;  // of the groove at its top
+  double v_width_max_mm = 44;  // of the groove at its top: plates of 20 mm that open by 95 deg
 
   double refit_distance_mm = 60;  // plates are fitted again to what lies so near the seam
   int outlier_neighbours =

@@ -126,6 +126,12 @@ struct JointConstants {
   // 507: by level B a tenth of the thickness, of plates of 10 mm. More may be a lap of thin sheet,
   // which nothing seen from above tells from it.
   double most_mismatch = 1;
+  // mm; and where the lower plate is seen to end: at most - ISO 5817, 507, level B, of any
+  // thickness.
+  double most_offset = 3;
+  // mm; of a lap's root gap, at most: what is seen of the step is the upper plate and the gap - ISO
+  // 5817, 617, level B.
+  double most_root_gap = 2;
   // Score over that of a joint found by the faces' planes, at least, for one found by the stripes'
   // runs or in faces taken together: where the planes tell, they tell more closely - bench.
   double clearly_better = 1.05;

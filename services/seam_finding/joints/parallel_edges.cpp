@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <iterator>
 #include <limits>
 
 #include "services/seam_finding/gaps/butt_gap.hpp"
@@ -14,9 +15,10 @@ int neighbour(const Transition& transition, int plate) {
   return plate == 0 ? transition.last : transition.first;
 }
 
-// The points that follow on a plate's last one in the same segment, outward, as long as they fall.
-std::vector<int> falling(const ScanCloud& cloud, const Transition& transition, const Plane& plane,
-                         int plate) {
+// The points that follow on a plate's last one in the same segment, outward, as long as they fall
+// as a cut does: what is flatter lies below the gap.
+std::vector<int> falling(const ScanCloud& cloud, const Transition& transition,
+                         const PlateFrame& frame, const Plane& plane, int plate, double near_mm) {
   std::vector<int> run;
   int before = neighbour(transition, plate);
   double height = plane.signed_distance(cloud.points[before]);
@@ -24,7 +26,9 @@ std::vector<int> falling(const ScanCloud& cloud, const Transition& transition, c
     const double h = plane.signed_distance(cloud.points[i]);
     if (cloud.organised() && cloud.origins[i].segment != cloud.origins[before].segment)
       return false;
-    if (h > height) return false;
+    const double across = std::abs(frame.across.dot(cloud.points[i] - cloud.points[before]));
+    const bool flat = height - h < std::tan(kJoints.least_top_fold) * across - near_mm;
+    if (h > height || (flat && !run.empty())) return false;
     run.push_back(i), before = i, height = h;
     return true;
   };
@@ -184,15 +188,45 @@ std::optional<std::array<LineFit, 2>> butt_edges(const ScanCloud& cloud,
   return fit_butt_gap(places, search);
 }
 
+// The points of a stripe on a cut lie above each other, but for its lean and the noise.
+bool is_steep(const std::vector<LinePlace>& cut, double near_mm) {
+  const auto [left, right] = std::minmax_element(
+      cut.begin(), cut.end(),
+      [](const LinePlace& a, const LinePlace& b) { return a.across < b.across; });
+  const auto [low, high] = std::minmax_element(
+      cut.begin(), cut.end(),
+      [](const LinePlace& a, const LinePlace& b) { return a.height < b.height; });
+  const double noise = std::hypot(kJoints.cut_deviation, near_mm / kFit.on_plane);
+  return right->across - left->across <
+         kFit.outlier *
+             (kJoints.square_cut * (high->height - low->height) + std::sqrt(2.0) * noise);
+}
+
 }  // namespace
 
 bool sees_below(const ScanCloud& cloud, const Transition& transition,
                 const std::array<Plane, 2>& planes, double near_mm) {
   return std::any_of(transition.between.begin(), transition.between.end(), [&](int i) {
-    return !cloud.origins[i].segment_end &&
-           std::max(planes[0].signed_distance(cloud.points[i]),
-                    planes[1].signed_distance(cloud.points[i])) < -2 * near_mm;
+    // Where light ends on a cut, its last centre is off by as much down as across.
+    const double off = cloud.origins[i].segment_end ? 3 * kJoints.jump_deviation : 2 * near_mm;
+    return std::max(planes[0].signed_distance(cloud.points[i]),
+                    planes[1].signed_distance(cloud.points[i])) < -off;
   });
+}
+
+std::vector<Transition> showing_edges(const ScanCloud& cloud,
+                                      const std::vector<Transition>& transitions,
+                                      const std::array<Plane, 2>& planes, double near_mm) {
+  std::vector<Transition> bare;
+  std::copy_if(transitions.begin(), transitions.end(), std::back_inserter(bare),
+               [&](const Transition& transition) {
+                 return std::none_of(
+                     transition.between.begin(), transition.between.end(), [&](int i) {
+                       return std::min(planes[0].signed_distance(cloud.points[i]),
+                                       planes[1].signed_distance(cloud.points[i])) > 2 * near_mm;
+                     });
+               });
+  return bare;
 }
 
 ParallelEdges edges_of(const ScanCloud& cloud, const std::vector<Transition>& transitions,
@@ -209,7 +243,7 @@ ParallelEdges edges_of(const ScanCloud& cloud, const std::vector<Transition>& tr
     std::vector<LinePlace> cut, ends_on_cut;
     double deepest = 0;
     for (const Transition& transition : transitions) {
-      const auto run = falling(cloud, transition, planes[plate], plate);
+      const auto run = falling(cloud, transition, frame, planes[plate], plate, near_mm);
       if (const int i = end_on_cut(cloud, transition, planes[plate], plate, near_mm); i >= 0) {
         const Eigen::Vector3d p = frame.of(cloud.points[i]);
         ends_on_cut.push_back({p.x(), p.y(), 0, kJoints.cut_deviation});
@@ -227,6 +261,7 @@ ParallelEdges edges_of(const ScanCloud& cloud, const std::vector<Transition>& tr
         deepest = std::min(deepest, cut.back().height);
       }
     }
+    borders.depth = std::max(borders.depth, -deepest);
     if (cut.size() >= kJoints.cut_points && -deepest > kJoints.least_depth) {
       // Falling away from plate 0 is toward larger across. What does not slant open is cut square.
       if (const auto fit = fit_line(cut, kJoints.free_cut);
@@ -255,7 +290,8 @@ ParallelEdges edges_of(const ScanCloud& cloud, const std::vector<Transition>& tr
 std::optional<LapRoot> lap_root(const ScanCloud& cloud, const std::vector<Transition>& transitions,
                                 const PlateFrame& frame, const std::array<Plane, 2>& planes,
                                 int upper, double step_mm, double near_mm, double pitch_mm) {
-  std::vector<LinePlace> cut, ends;
+  std::vector<LinePlace> places;
+  std::size_t on_cut = 0;
   const Plane& lower = planes[1 - upper];
   const double outward = upper == 0 ? 1 : -1;  // of the cut, across
   const auto faces_away = [&](int i) {
@@ -265,6 +301,7 @@ std::optional<LapRoot> lap_root(const ScanCloud& cloud, const std::vector<Transi
                                       [&](const auto& t) { return faces_away(t.last); }) >
                     std::ssize(transitions);
   for (const Transition& transition : transitions) {
+    std::vector<LinePlace> cut;
     for (const int i : transition.between) {
       const double height = lower.signed_distance(cloud.points[i]);
       // A cut that faces away from the camera is not seen: what lies between is the step's
@@ -276,15 +313,21 @@ std::optional<LapRoot> lap_root(const ScanCloud& cloud, const std::vector<Transi
       const Eigen::Vector3d p = frame.of(cloud.points[i]);
       cut.push_back({p.x(), p.y(), height, kJoints.cut_deviation});
     }
+    if (!cut.empty()) {
+      // A fillet's bead slants, and hides the edge.
+      if (!is_steep(cut, near_mm)) continue;
+      places.insert(places.end(), cut.begin(), cut.end()), on_cut += cut.size();
+      continue;
+    }
     // What follows on the upper plate's last point belongs to its cut or, in a thin plate's scan,
     // to the lower plate.
-    ends.push_back(
+    places.push_back(
         end_place(cloud, transition, frame, upper, follower(cloud, transition, upper), pitch_mm));
+    places.back().height = step_mm;
   }
-  if (cut.size() >= kJoints.cut_points)
-    if (const auto fit = fit_line(cut, kJoints.square_cut)) return LapRoot{*fit, true, away};
-  if (const auto fit = fit_line(ends, kJoints.square_cut)) return LapRoot{*fit, false, away};
-  return std::nullopt;
+  const auto fit = fit_line(places, kJoints.square_cut);
+  if (!fit) return std::nullopt;
+  return LapRoot{*fit, on_cut >= kJoints.cut_points, away};
 }
 
 }  // namespace arcstart::seam_finding

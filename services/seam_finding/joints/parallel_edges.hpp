@@ -13,9 +13,16 @@ namespace arcstart::seam_finding {
 struct ParallelEdges {
   std::array<std::optional<LineFit>, 2> plates;  // where each ends, in its own plane
   std::array<std::optional<double>, 2> slants;   // of a cut that falls away: from the normal; rad
+  double depth = 0;                              // down to which a cut was seen; mm
   // Of a narrow gap: both borders are told by all stripes together better than by any alone.
   bool together = false;
 };
+
+// Those of the transitions in which nothing stands before both plates, as a bead or a cable that
+// hides their edges. planes, near_mm: as below.
+std::vector<Transition> showing_edges(const ScanCloud& cloud,
+                                      const std::vector<Transition>& transitions,
+                                      const std::array<Plane, 2>& planes, double near_mm);
 
 // planes: of the plates. near_mm: how far a point of a plate lies from its plane. pitch: between
 // points of a stripe; mm.

@@ -39,7 +39,8 @@ LineFit middle_of(const LineFit& a, const LineFit& b) {
 
 // The plates' edges make a lap: the upper one's lower edge on the lower one. False where there is
 // no straight edge.
-bool set_lap(const ScanCloud& cloud, const TransitionLine& candidate, const ParallelEdges& edges,
+bool set_lap(const ScanCloud& cloud, const TransitionLine& candidate,
+             const std::vector<Transition>& showing, const ParallelEdges& edges,
              const Scales& scales, const SeamFindingSettings& settings, double step, double width,
              Joint& joint) {
   const PlateFrame& frame = candidate.frame;
@@ -51,8 +52,8 @@ bool set_lap(const ScanCloud& cloud, const TransitionLine& candidate, const Para
   joint.angle = M_PI;
   seam.step = std::abs(step);
   seam.lower = lower;
-  const auto root = lap_root(cloud, candidate.transitions, frame, planes, upper, seam.step,
-                             near_plate(scales), pitch);
+  const auto root =
+      lap_root(cloud, showing, frame, planes, upper, seam.step, near_plate(scales), pitch);
   if (!root) return false;
   seam.seam = root->fit;
   // A thin sheet's cut may show no point though it faces the camera.
@@ -64,7 +65,7 @@ bool set_lap(const ScanCloud& cloud, const TransitionLine& candidate, const Para
   using Code = Reason::Code;
   if (!is_wanted(JointType::kLap, settings))
     joint.flaw = {Code::kLapNotWanted};
-  else if (seam.step > settings.lap_thickness_max_mm)
+  else if (seam.step > settings.lap_thickness_max_mm + kJoints.most_root_gap)
     joint.flaw = {Code::kLapThickness, seam.step};
   else if (width > kJoints.step_shadow * seam.step + 2 * pitch)
     joint.flaw = {Code::kPlatesDoNotTouch};
@@ -98,13 +99,15 @@ void set_butt_or_groove(const TransitionLine& candidate, const ParallelEdges& ed
   joint.angle = groove ? 2 * seam.half_angle : M_PI;
   const double half_angle_max =
       (settings.v_angle_deg + settings.v_angle_tolerance_deg) / 2 * kDegree;
+  // Across it lies one side as deep as it was seen, and no more than that throws shadow on.
+  const double widest_groove = std::min(
+      settings.v_width_max_mm, (std::tan(seam.half_angle) + kJoints.step_shadow) * edges.depth);
   using Code = Reason::Code;
   if (!is_wanted(joint.type, settings))
     joint.flaw = {groove ? Code::kGrooveNotWanted : Code::kButtNotWanted};
   else if (groove && seam.half_angle > half_angle_max)
     joint.flaw = {Code::kGrooveAngle, 2 * seam.half_angle};
-  else if (width > (groove ? settings.v_width_max_mm : settings.butt_gap_max_mm) ||
-           width < -kJoints.overlap)
+  else if (width > (groove ? widest_groove : settings.butt_gap_max_mm) || width < -kJoints.overlap)
     joint.flaw = {Code::kGapWidth, width};
 }
 
@@ -118,15 +121,17 @@ bool lower_plate_ends(const ScanCloud& cloud, const TransitionLine& candidate,
              })) >= kJoints.seen_below * static_cast<double>(all.size());
 }
 
-// A step between the tops is a lap's or a mismatch: by its height alone where both are wanted, else
-// as the one that is asked for may have it.
+// A step between the tops is a lap's or a mismatch: a mismatch where the lower plate is seen to
+// end, else by its height alone where both are wanted, and as the one that is asked for may have it
+// where not.
 bool is_lap(const ScanCloud& cloud, const TransitionLine& candidate,
             const std::array<Plane, 2>& planes, double step, double near_mm,
             const SeamFindingSettings& settings) {
+  if (step < kJoints.most_offset && lower_plate_ends(cloud, candidate, planes, near_mm))
+    return false;
   const bool flush = is_wanted(JointType::kButt, settings) || is_wanted(JointType::kV, settings);
   const bool lap = is_wanted(JointType::kLap, settings);
-  if (lap && !flush && step < settings.lap_thickness_min_mm)
-    return step >= kJoints.least_step && !lower_plate_ends(cloud, candidate, planes, near_mm);
+  if (lap && !flush) return step >= kJoints.least_step;
   if (flush && !lap) return step >= kJoints.most_mismatch;
   return step >= settings.lap_thickness_min_mm;
 }
@@ -148,8 +153,9 @@ bool set_type(const ScanCloud& cloud, const TransitionLine& candidate, const Sca
               const SeamFindingSettings& settings, Joint& joint) {
   const PlateFrame& frame = candidate.frame;
   const std::array<Plane, 2> planes = {joint.plates[0].plane, joint.plates[1].plane};
+  const auto showing = showing_edges(cloud, candidate.transitions, planes, near_plate(scales));
   const ParallelEdges edges =
-      edges_of(cloud, candidate.transitions, frame, planes, near_plate(scales), scales.contact / 2);
+      edges_of(cloud, showing, frame, planes, near_plate(scales), scales.contact / 2);
   if (!edges.plates[0] || !edges.plates[1]) return false;
   const LineFit &first = *edges.plates[0], &second = *edges.plates[1];
   const LineFit middle = middle_of(first, second);
@@ -158,7 +164,7 @@ bool set_type(const ScanCloud& cloud, const TransitionLine& candidate, const Sca
   const double width = second.across_at(middle.middle) - first.across_at(middle.middle);
   joint.parallel.emplace().seam = middle;
   if (is_lap(cloud, candidate, planes, std::abs(step), near_plate(scales), settings))
-    return set_lap(cloud, candidate, edges, scales, settings, step, width, joint);
+    return set_lap(cloud, candidate, showing, edges, scales, settings, step, width, joint);
   set_butt_or_groove(candidate, edges, settings, width, joint);
   return true;
 }

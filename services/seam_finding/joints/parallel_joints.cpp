@@ -51,10 +51,12 @@ std::vector<Face> level_faces(const ScanCloud& cloud, const std::vector<Face>& f
   return together;
 }
 
+// A groove's slant passes through the plane of the lower plate's top: a point there is not that
+// plate.
 std::vector<int> face_of_points(const ScanCloud& cloud, const std::vector<Face>& faces) {
   std::vector<int> face_of(cloud.points.size(), -1);
   for (int f = 0; f < static_cast<int>(faces.size()); ++f)
-    for (const int i : faces[f].points) face_of[i] = f;
+    for (const int i : without_fragments(cloud, faces[f].points)) face_of[i] = f;
   return face_of;
 }
 

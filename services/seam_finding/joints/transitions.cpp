@@ -5,7 +5,9 @@
 #include <map>
 #include <set>
 
+#include "services/seam_finding/fit/order_statistics.hpp"
 #include "services/seam_finding/joints/constants.hpp"
+#include "services/seam_finding/model/constants.hpp"
 
 namespace arcstart::seam_finding {
 namespace {
@@ -35,6 +37,16 @@ Section in_order(const ScanCloud& cloud, const ScanStripe& stripe, const PlateFr
   return section;
 }
 
+// How far a section's points on a face lie from its plane, half of them; mm.
+double level_of(const ScanCloud& cloud, const Section& section, const std::vector<int>& face_of,
+                const std::vector<Face>& faces, int face) {
+  std::vector<double> off;
+  for (const int i : section)
+    if (face_of[i] == face && !cloud.origins[i].segment_end)
+      off.push_back(faces[face].plane.signed_distance(cloud.points[i]));
+  return std::ssize(off) < kModel.sure_points ? 0 : median(off);
+}
+
 }  // namespace
 
 std::vector<Section> sections_across(const ScanCloud& cloud, const PlateFrame& frame,
@@ -62,14 +74,19 @@ std::vector<Transition> transitions_between(const ScanCloud& cloud,
                                             const std::vector<int>& face_of,
                                             const std::vector<Face>& faces, int a, int b,
                                             double near_mm) {
-  const auto on_plate = [&](int i) {
-    const int face = face_of[i];
-    return (face == a || face == b) &&
-           (cloud.origins[i].segment_end ||
-            std::abs(faces[face].plane.signed_distance(cloud.points[i])) <= near_mm);
-  };
   std::vector<Transition> transitions;
   for (std::size_t k = 0; k < sections.size(); ++k) {
+    // Bent plates leave their planes along the seam; one face that holds both plates has one level.
+    const bool two = a != b;
+    const double level_a = two ? level_of(cloud, sections[k], face_of, faces, a) : 0,
+                 level_b = two ? level_of(cloud, sections[k], face_of, faces, b) : 0;
+    const auto on_plate = [&](int i) {
+      const int face = face_of[i];
+      return (face == a || face == b) &&
+             (cloud.origins[i].segment_end ||
+              std::abs(faces[face].plane.signed_distance(cloud.points[i]) -
+                       (face == a ? level_a : level_b)) <= near_mm);
+    };
     int last = -1;
     std::vector<int> between;
     for (const int i : sections[k]) {

@@ -36,8 +36,9 @@ struct Transition {
 
 // Between a point of face a and one of face b. Where both are one face: between two of its points
 // that lie in different segments or with something between. A point is on its face where it is no
-// farther from it than `near_mm`, a segment's end wherever the face holds it. faces: of each point,
-// the index of its face, -1 for none.
+// farther from it than `near_mm`, a segment's end wherever the face holds it; of two faces, from
+// where most of the section's points on it lie. faces: of each point, the index of its face, -1 for
+// none.
 std::vector<Transition> transitions_between(const ScanCloud& cloud,
                                             const std::vector<Section>& sections,
                                             const std::vector<int>& face_of,
