@@ -169,7 +169,7 @@ void ImageRenderer::draw(const Scene& scene, const RigidTransform& T_base_tool,
       const double along = (middle - line.begin).norm() / (line.end - line.begin).norm();
       const double spread = line.spread_begin + along * (line.spread_end - line.spread_begin);
       const double widened = std::hypot(sigma, spread);
-      const Surface& surface = scene.surface_of(line.triangle);
+      const Surface& surface = scene.surface_at(line.triangle, middle);
       const Eigen::Vector3d to_source = line.source - middle;
       const double distance = to_source.norm();
       const double incidence = std::abs(triangle.normal.dot(to_source)) / distance;

@@ -94,6 +94,26 @@ std::vector<Seen> nearest(std::vector<Sight>& all) {
   return result;
 }
 
+// The line in parts that are each within a band of its object or outside of it.
+void append_parted(const Scene& scene, const LitLine& line, std::vector<LitLine>& lines) {
+  const auto& band = scene.objects()[scene.triangles().object_of(line.triangle)].band;
+  std::vector<double> shares{0};  // of the way along it
+  if (band) {
+    const double from = band->off_middle(line.begin), to = band->off_middle(line.end);
+    for (const double border : {-band->half_width, band->half_width})
+      if ((from < border) != (to < border)) shares.push_back((border - from) / (to - from));
+    std::sort(shares.begin(), shares.end());
+  }
+  shares.push_back(1);
+  const Eigen::Vector3d way = line.end - line.begin;
+  for (std::size_t i = 1; i < shares.size(); ++i) {
+    LitLine part = line;
+    if (i > 1) part.begin = line.begin + shares[i - 1] * way;
+    if (i + 1 < shares.size()) part.end = line.begin + shares[i] * way;
+    lines.push_back(part);
+  }
+}
+
 }  // namespace
 
 std::vector<LitLine> cast(const Scene& scene, const LightSheet& sheet) {
@@ -107,7 +127,9 @@ std::vector<LitLine> cast(const Scene& scene, const LightSheet& sheet) {
     const Eigen::Vector3d begin = frame.at(seen.begin, seen.sight->w(seen.begin));
     const Eigen::Vector3d end = frame.at(seen.end, seen.sight->w(seen.end));
     if ((end - begin).norm() < shortest_mm) continue;
-    lines.push_back({begin, end, sheet.normal, sheet.source, seen.sight->triangle, 1, 0, 0, false});
+    append_parted(scene,
+                  {begin, end, sheet.normal, sheet.source, seen.sight->triangle, 1, 0, 0, false},
+                  lines);
   }
   return lines;
 }
@@ -117,7 +139,7 @@ std::vector<LitLine> cast_mirrored(const Scene& scene, const std::vector<LitLine
   std::vector<LitLine> lines;
   std::vector<PlaneCut> cuts;
   for (const LitLine& lit : direct) {
-    const Surface& surface = scene.surface_of(lit.triangle);
+    const Surface& surface = scene.surface_at(lit.triangle, (lit.begin + lit.end) / 2);
     const double share = lit.share * surface.specular_share;
     if (share <= 0 || share < least_share) continue;
     const Triangle& mirror = scene.triangles().triangle(lit.triangle);

@@ -32,7 +32,7 @@ struct LitLine {
 };
 
 // What the sheet lights directly: in every direction the nearest triangle. Exact: shadow edges
-// included.
+// included. Parted where an object's band begins or ends.
 std::vector<LitLine> cast(const Scene& scene, const LightSheet& sheet);
 
 // What the light lights again that the surfaces under `direct` mirror: each line's source is

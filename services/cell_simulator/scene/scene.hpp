@@ -18,8 +18,10 @@ class Scene {
   const std::vector<SceneObject>& objects() const { return objects_; }
   const std::optional<SeamTruth>& seam() const { return seam_; }
   const TriangleHierarchy& triangles() const { return triangles_; }
-  const Surface& surface_of(int triangle) const {
-    return objects_[triangles_.object_of(triangle)].surface;
+  // At a point of a triangle.
+  const Surface& surface_at(int triangle, const Eigen::Vector3d& point) const {
+    const SceneObject& object = objects_[triangles_.object_of(triangle)];
+    return object.band && object.band->contains(point) ? object.band->surface : object.surface;
   }
 
  private:

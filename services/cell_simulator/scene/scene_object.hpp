@@ -3,6 +3,8 @@
 
 #include <Eigen/Core>
 #include <array>
+#include <cmath>
+#include <optional>
 #include <stdexcept>
 #include <string>
 
@@ -19,10 +21,25 @@ struct Surface {
   double gloss_spread_rad = 0;  // standard deviation of the mirrored direction
 };
 
+// What of an object lies between two parallel planes and answers light in a way of its own, as
+// steel does that was ground beside a seam.
+struct SurfaceBand {
+  Eigen::Vector3d middle;  // a point midway between the planes, in base; mm
+  Eigen::Vector3d across;  // unit, square to the planes
+  double half_width;       // mm
+  Surface surface;
+
+  double off_middle(const Eigen::Vector3d& point) const { return across.dot(point - middle); }
+  bool contains(const Eigen::Vector3d& point) const {
+    return std::abs(off_middle(point)) < half_width;
+  }
+};
+
 struct SceneObject {
   std::string name;
   TriangleMesh mesh;  // in base; mm
   Surface surface;
+  std::optional<SurfaceBand> band = {};
 };
 
 // The true seam in base; mm and rad. It runs in the search direction.

@@ -8,20 +8,23 @@
 namespace arcstart::cell_simulator {
 
 WildSurface draw_surface(Draw& draw) {
-  // albedo, mottling, specular share, gloss, noise across a stripe in px, dropouts. The noise is
-  // what extraction's own deviations say on real images, 0.05 to 0.3 px.
-  const WildSurface ground{0.5, 0.08, 0.12, 0.006, 0.08, 0};
-  const WildSurface scale{0.15, 0.3, 0.08, 0.02, 0.15, 0.002};
+  // albedo, mottling, specular share, gloss, noise across a stripe in px, dropouts.
   const WildSurface rust{0.25, 0.5, 0, 0, 0.2, 0.005};
   const WildSurface primer{0.6, 0.05, 0.02, 0.02, 0.05, 0};
   const WildSurface black{0.06, 0.2, 0.05, 0.02, 0.3, 0.05};
   const WildSurface mirror{0.15, 0.05, 0.6, 0.003, 0.15, 0.02};
   const double which = draw.within(0, 1);
-  if (which < 0.4) return ground;
-  if (which < 0.6) return scale;
+  if (which < 0.4) return ground_steel;
+  if (which < 0.6) return mill_scale;
   if (which < 0.72) return rust;
   if (which < 0.84) return primer;
   return which < 0.92 ? black : mirror;
+}
+
+void draw_ground_bands(WildWork& work, Draw& draw) {
+  if (draw.chance(0.5)) return;
+  for (WildPlate* plate : {&work.first, &work.second})
+    if (plate->surface == mill_scale) plate->ground_mm = draw.within(10, 30);
 }
 
 WildTable draw_table(Draw& draw) {

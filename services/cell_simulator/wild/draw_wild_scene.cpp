@@ -7,7 +7,7 @@
 namespace arcstart::cell_simulator {
 namespace {
 
-enum Purpose : std::uint64_t { kKind = 21, kWork, kSecondWork, kClutter, kSurroundings };
+enum Purpose : std::uint64_t { kKind = 21, kWork, kSecondWork, kClutter, kSurroundings, kGround };
 
 // A part in which the joint asked for is not to be found by anybody.
 WildWork draw_wrong_work(const std::string& asked, Draw& kind, Draw& draw, bool quiet) {
@@ -68,6 +68,8 @@ WildScene draw_wild_scene(const std::string& joint, std::uint64_t seed) {
     place_beside(other, scene.works[0], second);
     scene.works.push_back(other);
   }
+  Draw ground(mixed, kGround);
+  for (WildWork& one : scene.works) draw_ground_bands(one, ground);
   scene.table = draw_table(surroundings);
   scene.scan = draw_scan(scene.works, surroundings);
   if (quiet) return scene;

@@ -30,6 +30,9 @@ class Draw {
 // Ground steel, scale, rust, primer, black, or nearly a mirror.
 WildSurface draw_surface(Draw& draw);
 
+// Plates with scale: in half of the works ground as far as 10 to 30 mm from the seam.
+void draw_ground_bands(WildWork& work, Draw& draw);
+
 // quiet: nothing but the joint itself.
 WildWork draw_work(const std::string& joint, Draw& draw, bool quiet);
 

@@ -31,38 +31,47 @@ std::optional<SeamTruth> first_seam(const WildTruth& truth) {
                    seam.direction,  seam.normals,     seam.angle};
 }
 
-// Objects of the scene in their order: their names, meshes and surfaces.
+// Objects of the scene in their order: their names, meshes, surfaces and bands.
 template <class Add>
 void for_each_object(const WildScene& wild, SceneKind kind, Add&& add) {
   add(
-      "table", [&] { return make_wild_table(wild); }, wild.table.surface);
+      "table", [&] { return make_wild_table(wild); }, wild.table.surface, std::nullopt);
   if (kind == SceneKind::workpiece)
     for (const WildWork& work : wild.works)
       for (WorkPart& part : parts_of(work))
         add(
-            part.name, [&] { return std::move(part.mesh); }, part.surface);
+            part.name, [&] { return std::move(part.mesh); }, part.surface, part.band);
   for (const WildSolid& solid : wild.solids)
     if (stands(solid, kind))
       add(
-          solid.kind, [&] { return mesh_of(solid); }, solid.surface);
+          solid.kind, [&] { return mesh_of(solid); }, solid.surface, std::nullopt);
 }
 
 }  // namespace
 
 Scene build(const WildScene& wild, SceneKind kind) {
   std::vector<SceneObject> objects;
-  for_each_object(wild, kind, [&](const std::string& name, auto mesh, const WildSurface& surface) {
-    objects.push_back({name, mesh(), rendered(surface)});
-  });
+  for_each_object(wild, kind,
+                  [&](const std::string& name, auto mesh, const WildSurface& surface,
+                      const std::optional<WorkBand>& band) {
+                    objects.push_back({name, mesh(), rendered(surface)});
+                    if (band)
+                      objects.back().band = SurfaceBand{band->middle, band->across,
+                                                        band->half_width, rendered(band->surface)};
+                  });
   if (kind == SceneKind::background) return Scene(std::move(objects));
   return Scene(std::move(objects), first_seam(truth_of(wild)));
 }
 
 std::vector<WildSurface> surfaces_of(const WildScene& wild, SceneKind kind) {
-  std::vector<WildSurface> surfaces;
-  for_each_object(wild, kind, [&](const std::string&, auto, const WildSurface& surface) {
-    surfaces.push_back(surface);
-  });
+  std::vector<WildSurface> surfaces, bands;
+  for_each_object(wild, kind,
+                  [&](const std::string&, auto, const WildSurface& surface,
+                      const std::optional<WorkBand>& band) {
+                    surfaces.push_back(surface);
+                    bands.push_back(band ? band->surface : surface);
+                  });
+  surfaces.insert(surfaces.end(), bands.begin(), bands.end());
   return surfaces;
 }
 
@@ -99,8 +108,10 @@ std::optional<Scene> on_tool(const WildScene& wild) {
 Scene in_frame(const Scene& scene, const Scene* carried, const RigidTransform& T_base_camera,
                const Eigen::Vector3d& shaken_mm) {
   std::vector<SceneObject> objects = scene.objects();
-  for (std::size_t i = 1; i < objects.size(); ++i)
+  for (std::size_t i = 1; i < objects.size(); ++i) {
     for (Eigen::Vector3d& corner : objects[i].mesh.corners) corner += shaken_mm;
+    if (objects[i].band) objects[i].band->middle += shaken_mm;
+  }
   if (carried)
     for (SceneObject object : carried->objects()) {
       object.mesh = transformed(object.mesh, T_base_camera);

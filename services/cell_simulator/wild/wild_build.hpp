@@ -19,7 +19,8 @@ Scene build(const WildScene& wild, SceneKind kind);
 
 WildTruth truth_of(const WildScene& wild);
 
-// Noise and dropouts of each of the objects of build(wild, kind), in their order.
+// Noise and dropouts of each of the objects of build(wild, kind), in their order; behind these of
+// their bands, of an object without one its own again.
 std::vector<WildSurface> surfaces_of(const WildScene& wild, SceneKind kind);
 
 // What the tool carries before the sensor, in camera: a nozzle with its wire. Nothing where it is

@@ -15,7 +15,7 @@ NLOHMANN_DEFINE_TYPE_NON_INTRUSIVE_WITH_DEFAULT(WildHole, along_mm, away_mm, rad
 NLOHMANN_DEFINE_TYPE_NON_INTRUSIVE_WITH_DEFAULT(WildNotch, along_mm, width_mm, depth_mm)
 NLOHMANN_DEFINE_TYPE_NON_INTRUSIVE_WITH_DEFAULT(WildPlate, section, thickness_mm, away_mm,
                                                 behind_mm, depth_mm, corner_radius_mm, begin, end,
-                                                holes, notches, surface)
+                                                holes, notches, surface, ground_mm, ground)
 NLOHMANN_DEFINE_TYPE_NON_INTRUSIVE_WITH_DEFAULT(WildBead, along_mm, length_mm, leg_mm, other_side)
 NLOHMANN_DEFINE_TYPE_NON_INTRUSIVE_WITH_DEFAULT(WildRib, across_mm, thickness_mm, height_mm,
                                                 begin_mm, end_mm)

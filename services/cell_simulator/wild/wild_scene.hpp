@@ -18,7 +18,14 @@ struct WildSurface {
   double gloss_spread_rad = 0.006;  // of the mirrored direction
   double noise_px = 0.1;            // of a stripe's centres across the stripe
   double dropout_share = 0;         // of its centres, in runs of some pixels
+
+  bool operator==(const WildSurface&) const = default;
 };
+
+// Bright steel as a grinder leaves it, and mill scale. The noise is what extraction's own
+// deviations say on real images, 0.05 to 0.3 px.
+inline constexpr WildSurface ground_steel{0.5, 0.08, 0.12, 0.006, 0.08, 0};
+inline constexpr WildSurface mill_scale{0.15, 0.3, 0.08, 0.02, 0.15, 0.002};
 
 // How a plate ends along the seam. Turns, slants and waves carry the end outward where they are
 // above 0 at the far side: at a distance t from the seam and a depth d under the plate's face it
@@ -57,6 +64,8 @@ struct WildPlate {
   std::vector<WildHole> holes;
   std::vector<WildNotch> notches;
   WildSurface surface;
+  double ground_mm = 0;  // beside the seam, to both sides of it, the plate is ground; 0: nowhere
+  WildSurface ground = ground_steel;  // how it answers there
 };
 
 // Weld metal along the joint: tacks, stitches, the other side's bead.

@@ -98,6 +98,12 @@ TriangleMesh tab_mesh(const WildTab& tab, const WildWork& work) {
                   {std::max(at, other), tab.half_width_mm, -tab.lower_mm - lift});
 }
 
+// About the seam's line. It stays straight where the work is bent: nobody grinds to a millimetre.
+std::optional<WorkBand> band_of(const WildPlate& plate, const PlateFrame& frame) {
+  if (plate.ground_mm <= 0) return {};
+  return WorkBand{frame.origin, frame.away, plate.ground_mm, plate.ground};
+}
+
 // In the work's frame, bent.
 std::vector<WorkPart> unplaced_parts(const WildWork& work) {
   std::vector<WorkPart> parts;
@@ -106,8 +112,11 @@ std::vector<WorkPart> unplaced_parts(const WildWork& work) {
     parts.push_back({name, bent(work, mesh), surface});
   };
   add("first plate", plate_mesh(work.first, first_frame(work)), work.first.surface);
-  if (!work.second_missing)
+  parts.back().band = band_of(work.first, first_frame(work));
+  if (!work.second_missing) {
     add("second plate", plate_mesh(work.second, second_frame(work)), work.second.surface);
+    parts.back().band = band_of(work.second, second_frame(work));
+  }
   for (const WildRib& rib : work.ribs) add("rib", rib_mesh(rib), work.second.surface);
   for (const WildTab& tab : work.tabs) add("tab", tab_mesh(tab, work), work.first.surface);
   WildSurface metal = work.first.surface;  // of a weld: brighter than what it joins
@@ -227,7 +236,12 @@ RigidTransform place(const WildWork& work) {
 std::vector<WorkPart> parts_of(const WildWork& work) {
   const RigidTransform T_base_work = place(work);
   std::vector<WorkPart> parts = unplaced_parts(work);
-  for (WorkPart& part : parts) part.mesh = transformed(part.mesh, T_base_work);
+  for (WorkPart& part : parts) {
+    part.mesh = transformed(part.mesh, T_base_work);
+    if (!part.band) continue;
+    part.band->middle = T_base_work * part.band->middle;
+    part.band->across = T_base_work.linear() * part.band->across;
+  }
   return parts;
 }
 

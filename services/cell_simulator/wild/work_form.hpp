@@ -2,6 +2,7 @@
 // is placed.
 #pragma once
 
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -12,10 +13,18 @@
 
 namespace arcstart::cell_simulator {
 
+// Of a part, what lies no farther than half_width from a plane; as SurfaceBand.
+struct WorkBand {
+  Eigen::Vector3d middle, across;
+  double half_width;  // mm
+  WildSurface surface;
+};
+
 struct WorkPart {
   std::string name;
   TriangleMesh mesh;
   WildSurface surface;
+  std::optional<WorkBand> band = {};
 };
 
 // The work's frame in base; the lowest corner of its metal, weld metal apart, lies at

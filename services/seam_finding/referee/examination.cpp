@@ -42,6 +42,13 @@ bool stands_before(const PlateView& view, const StripeOnPlate& stripe) {
   });
 }
 
+std::vector<int> indices_of(const ThinnedScan& thinned) {
+  std::vector<int> indices;
+  indices.reserve(thinned.points.size());
+  for (const ThinnedPoint& point : thinned.points) indices.push_back(point.index);
+  return indices;
+}
+
 // What stands before one plate casts its shadow on both.
 void set_covered(std::array<PlateView, 2>& views) {
   std::vector<int> covered;  // stripes
@@ -57,15 +64,20 @@ void set_covered(std::array<PlateView, 2>& views) {
 }  // namespace
 
 Examination examine(const ScanCloud& cloud, const SeamResult& seam) {
+  ThinnedScan thinned;
+  thin_out(cloud, thinned);
+  return examine(cloud, thinned, seam);
+}
+
+Examination examine(const ScanCloud& cloud, const ThinnedScan& thinned, const SeamResult& seam) {
   Examination examination;
   if (seam.verdict != SeamResult::Verdict::kFound || !cloud.organised()) return examination;
   const auto lights = light_of(cloud);
   if (lights.empty()) return examination;
   const double length = (seam.end - seam.start).norm();
-  const std::vector<int> points = points_to_look_at(cloud);
   std::array<PlateView, 2>& views = examination.views;
   for (int j = 0; j < 2; ++j) {
-    views[j] = view_of(cloud, points, lights, seam, j);
+    views[j] = view_of(cloud, thinned, lights, seam, j);
     examination.shapes[j] = shape_of(views[j], length);
     set_looks(examination.shapes[j], length, views[j]);
     if (end_at_seam(seam)[j]) {
@@ -82,7 +94,7 @@ Examination examine(const ScanCloud& cloud, const SeamResult& seam) {
       contradiction_of(seam, views, examination.shapes, examination.edges, examination.spacing);
   if (!examination.contradiction && is_outside_corner(seam))
     if (const auto radius = corner_radius(
-            cloud, points, seam,
+            cloud, indices_of(thinned), seam,
             std::max(examination.shapes[0].tolerance, examination.shapes[1].tolerance)))
       examination.contradiction = {Reason::Code::kCornerRound, *radius};
   for (const SeamSide side : {SeamSide::kBegin, SeamSide::kEnd}) {

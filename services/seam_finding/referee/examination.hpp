@@ -29,5 +29,7 @@ struct Examination {
 
 // Of a found seam; of any other nothing is examined, nor in a cloud without stripes.
 Examination examine(const ScanCloud& cloud, const SeamResult& seam);
+// The same of a scan that is thinned out already.
+Examination examine(const ScanCloud& cloud, const ThinnedScan& thinned, const SeamResult& seam);
 
 }  // namespace arcstart::seam_finding

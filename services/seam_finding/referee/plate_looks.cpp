@@ -9,9 +9,11 @@
 namespace arcstart::seam_finding {
 namespace {
 
-// risen: over the shape, of the plate in the stripe before; then in this one.
-void set_looks(const PlateShape& shape, double begin, StripeOnPlate& stripe, double& risen) {
-  std::vector<double> heights;
+// risen: over the shape, of the plate in the stripe before; then in this one. heights: keeps its
+// memory from stripe to stripe.
+void set_looks(const PlateShape& shape, double begin, StripeOnPlate& stripe, double& risen,
+               std::vector<double>& heights) {
+  heights.clear();
   int others = 0;
   for (Place& place : stripe.places) {
     const double height = place.height - shape.height_at(place.along, place.away) - risen;
@@ -30,28 +32,51 @@ void set_looks(const PlateShape& shape, double begin, StripeOnPlate& stripe, dou
   risen += quantile_of(heights, 0.5);
 }
 
-// Between neighbours of a segment that look alike, what lies there looks so, too: the scan was
-// thinned out, or its image has few pixels.
-void fill_in(StripeOnPlate& stripe) {
-  std::vector<Place> places = stripe.places;
-  sort_by(&Place::point, places);
-  const std::size_t seen = stripe.places.size();
-  for (std::size_t i = 1; i < places.size(); ++i) {
-    const Place &a = places[i - 1], &b = places[i];
-    if (a.segment != b.segment || a.look != b.look || a.look == Look::kBefore) continue;
-    const int steps = static_cast<int>(std::abs(b.away - a.away) / kReferee.step);
-    for (int step = 1; step < steps; ++step) {
-      const double share = static_cast<double>(step) / steps;
-      Place between = a;
-      between.along += share * (b.along - a.along);
-      between.away += share * (b.away - a.away);
-      between.height += share * (b.height - a.height);
-      between.ends = false;
-      stripe.places.push_back(between);
-    }
+// Whether the stripe's places, rising away, are as they follow each other along the stripe, or just
+// the other way round.
+bool in_order(const std::vector<Place>& places) {
+  if (places.size() < 3) return true;
+  const bool rising = places[0].point < places[1].point;
+  for (std::size_t i = 2; i < places.size(); ++i)
+    if ((places[i - 1].point < places[i].point) != rising) return false;
+  return true;
+}
+
+// Between two neighbours of a segment that look alike, what lies there looks so, too: the scan was
+// thinned out, or its image has few pixels. a is the earlier point; appended from a to b.
+void append_between(const Place& a, const Place& b, std::vector<Place>& places) {
+  if (a.segment != b.segment || a.look != b.look || a.look == Look::kBefore) return;
+  const int steps = static_cast<int>(std::abs(b.away - a.away) / kReferee.step);
+  for (int step = 1; step < steps; ++step) {
+    const double share = static_cast<double>(step) / steps;
+    Place between = a;
+    between.along += share * (b.along - a.along);
+    between.away += share * (b.away - a.away);
+    between.height += share * (b.height - a.height);
+    between.ends = false;
+    places.push_back(between);
   }
-  if (stripe.places.size() == seen) return;
-  sort_by(&Place::away, stripe.places);
+}
+
+// scratch: keeps its memory from stripe to stripe.
+void fill_in(StripeOnPlate& stripe, std::vector<Place>& scratch) {
+  std::vector<Place>& places = stripe.places;
+  scratch.clear();
+  if (in_order(places)) {
+    // As mostly: neighbours away are neighbours along the stripe.
+    const std::size_t count = places.size();
+    const bool rising = count < 2 || places[0].point < places[1].point;
+    for (std::size_t i = 1; i < count; ++i)
+      append_between(places[rising ? i - 1 : count - i], places[rising ? i : count - 1 - i],
+                     scratch);
+  } else {
+    std::vector<Place> along = places;
+    sort_by(&Place::point, along);
+    for (std::size_t i = 1; i < along.size(); ++i) append_between(along[i - 1], along[i], scratch);
+  }
+  if (scratch.empty()) return;
+  places.insert(places.end(), scratch.begin(), scratch.end());
+  sort_by(&Place::away, places);
 }
 
 // A single place at the plate's height beside what stands on the plate is on that thing's flank.
@@ -113,14 +138,16 @@ void set_looks(const PlateShape& shape, double length, PlateView& view) {
   const auto middle = std::partition_point(
       stripes.begin(), stripes.end(),
       [&](const StripeOnPlate& stripe) { return stripe.crossing < length / 2; });
+  std::vector<double> heights;
+  std::vector<Place> between;
   double risen = 0;
   for (auto stripe = middle; stripe != stripes.end(); ++stripe)
-    set_looks(shape, view.begin, *stripe, risen);
+    set_looks(shape, view.begin, *stripe, risen, heights);
   risen = 0;
   for (auto stripe = middle; stripe != stripes.begin();)
-    set_looks(shape, view.begin, *--stripe, risen);
+    set_looks(shape, view.begin, *--stripe, risen, heights);
   for (StripeOnPlate& stripe : stripes) {
-    fill_in(stripe);
+    fill_in(stripe, between);
     leave_out_flanks(stripe);
     stripe.at_seam = seen_at_seam(view, stripe);
   }

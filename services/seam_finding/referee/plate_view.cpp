@@ -68,18 +68,14 @@ bool set_trace(const Frame& frame, const StripeLight& light, const Eigen::Vector
 }
 
 // scratch: keeps its memory from stripe to stripe, for fresh memory costs more than the places.
-void add_places(const ScanCloud& cloud, const std::vector<int>& points, const Frame& frame,
-                const StripeLight& light, std::vector<Place>& scratch, StripeOnPlate& stripe) {
-  const ScanStripe& seen = cloud.stripes[stripe.stripe];
-  const auto first = std::lower_bound(points.begin(), points.end(), seen.first);
-  const auto behind = std::lower_bound(first, points.end(), seen.first + seen.count);
+void add_places(std::span<const ThinnedPoint> points, const Frame& frame, const StripeLight& light,
+                std::vector<Place>& scratch, StripeOnPlate& stripe) {
   scratch.clear();
   const LightOver over{light.source, frame.plane.signed_distance(light.source)};
   Place place;
-  for (auto i = first; i != behind; ++i) {
-    if (!set_place(frame, over, cloud.points[*i], place)) continue;
-    const PointOrigin& origin = cloud.origins[*i];
-    place.ends = origin.segment_end, place.point = *i, place.segment = origin.segment;
+  for (const ThinnedPoint& point : points) {
+    if (!set_place(frame, over, point.at, place)) continue;
+    place.ends = point.ends, place.point = point.index, place.segment = point.segment;
     scratch.push_back(place);
   }
   sort_by(&Place::away, scratch);
@@ -114,14 +110,14 @@ double begin_of(const PlateView& view, double length) {
 
 }  // namespace
 
-std::vector<int> points_to_look_at(const ScanCloud& cloud) {
-  std::vector<int> kept;
+void thin_out(const ScanCloud& cloud, ThinnedScan& thinned) {
   const std::vector<Eigen::Vector3d>& points = cloud.points;
   const std::vector<PointOrigin>& origins = cloud.origins;
-  for (const ScanStripe& stripe : cloud.stripes) {
+  for (std::size_t k = thinned.behind.size(); k < cloud.stripes.size(); ++k) {
+    const ScanStripe& stripe = cloud.stripes[k];
     const int behind = stripe.first + stripe.count;
     for (int i = stripe.first; i < behind;) {
-      kept.push_back(i);
+      thinned.points.push_back({points[i], i, origins[i].segment, origins[i].segment_end});
       // So far as neighbours lie within a step, but not over a segment's end. Noise parts direct
       // neighbours more than the way along the stripe does.
       int jump = kReferee.longest_jump;
@@ -132,11 +128,11 @@ std::vector<int> points_to_look_at(const ScanCloud& cloud) {
         jump /= 2;
       i += jump;
     }
+    thinned.behind.push_back(thinned.points.size());
   }
-  return kept;
 }
 
-PlateView view_of(const ScanCloud& cloud, const std::vector<int>& points,
+PlateView view_of(const ScanCloud& cloud, const ThinnedScan& thinned,
                   const std::vector<std::optional<StripeLight>>& lights, const SeamResult& seam,
                   int plate) {
   PlateView view;
@@ -151,7 +147,7 @@ PlateView view_of(const ScanCloud& cloud, const std::vector<int>& points,
     stripe.stripe = static_cast<int>(k);
     if (!set_trace(frame, *lights[k], cloud.stripes[k].camera_centre, stripe)) continue;
     if (stripe.crossing < -kReferee.beyond || stripe.crossing > length + kReferee.beyond) continue;
-    add_places(cloud, points, frame, *lights[k], scratch, stripe);
+    add_places(thinned.of_stripe(k), frame, *lights[k], scratch, stripe);
     view.stripes.push_back(std::move(stripe));
   }
   std::sort(view.stripes.begin(), view.stripes.end(),

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <array>
 #include <optional>
+#include <span>
 #include <vector>
 
 #include "services/seam_finding/model/scan_cloud.hpp"
@@ -70,13 +71,32 @@ struct PlateView {
   std::vector<StripeOnPlate> stripes;
 };
 
-// Of each stripe those that stand about a millimetre apart, and the ends of
-// its segments. Rising.
-std::vector<int> points_to_look_at(const ScanCloud& cloud);
+// A point of the cloud that is looked at, with what is asked of it side by side in memory.
+struct ThinnedPoint {
+  Eigen::Vector3d at;  // in base; mm
+  int index, segment;  // in the cloud, and in its stripe
+  bool ends;           // first or last of its segment
+};
+
+// Of each stripe those points that stand about a millimetre apart, and the ends of its segments. In
+// their order.
+struct ThinnedScan {
+  std::vector<ThinnedPoint> points;
+  std::vector<std::size_t> behind;  // each stripe's last, in `points`
+
+  std::span<const ThinnedPoint> of_stripe(std::size_t stripe) const {
+    const std::size_t first = stripe == 0 ? 0 : behind[stripe - 1];
+    return {points.data() + first, behind[stripe] - first};
+  }
+};
+
+// Goes on behind the last stripe that is thinned out already: a scan can be thinned out stripe by
+// stripe while it runs.
+void thin_out(const ScanCloud& cloud, ThinnedScan& thinned);
 
 // heights as they are, everything kOn: what they mean is told by set_looks(). begin: by the heights
 // over the claimed plane, along the middle of the seam.
-PlateView view_of(const ScanCloud& cloud, const std::vector<int>& points,
+PlateView view_of(const ScanCloud& cloud, const ThinnedScan& thinned,
                   const std::vector<std::optional<StripeLight>>& lights, const SeamResult& seam,
                   int plate);
 

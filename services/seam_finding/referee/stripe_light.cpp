@@ -13,11 +13,12 @@ namespace {
 // In the tool's frame, of each stripe a few points spread over it.
 std::vector<Eigen::Vector3d> sample(const ScanCloud& cloud) {
   std::vector<Eigen::Vector3d> points;
+  points.reserve(2 * static_cast<std::size_t>(kReferee.light_points) * cloud.stripes.size());
   for (const ScanStripe& stripe : cloud.stripes) {
     const int step = std::max(1, stripe.count / kReferee.light_points);
+    const Eigen::Quaterniond to_tool = stripe.tool_turn.conjugate();
     for (int i = 0; i < stripe.count; i += step)
-      points.push_back(stripe.tool_turn.conjugate() *
-                       (cloud.points[stripe.first + i] - stripe.tool_position));
+      points.push_back(to_tool * (cloud.points[stripe.first + i] - stripe.tool_position));
   }
   return points;
 }
@@ -29,7 +30,11 @@ std::optional<Plane> plane_through(const std::vector<Eigen::Vector3d>& points) {
   for (const Eigen::Vector3d& p : points) mean += p;
   mean /= static_cast<double>(points.size());
   Eigen::Matrix3d scatter = Eigen::Matrix3d::Zero();
-  for (const Eigen::Vector3d& p : points) scatter += (p - mean) * (p - mean).transpose();
+  for (const Eigen::Vector3d& p : points) {
+    const Eigen::Vector3d d = p - mean;
+    for (int column = 0; column < 3; ++column)  // the lower half is what the solver reads
+      for (int row = column; row < 3; ++row) scatter(row, column) += d(row) * d(column);
+  }
   const Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d> solver(scatter);
   const double width = std::sqrt(solver.eigenvalues()(1) / static_cast<double>(points.size()));
   if (!(width > kReferee.light_width)) return std::nullopt;
@@ -40,8 +45,10 @@ std::optional<Plane> plane_through(const std::vector<Eigen::Vector3d>& points) {
 // Without the points that lie off it, as outliers of a cloud from elsewhere may.
 std::optional<Plane> robust_plane(std::vector<Eigen::Vector3d> points) {
   std::optional<Plane> plane = plane_through(points);
+  std::vector<double> distances;
+  distances.reserve(points.size());
   for (int pass = 0; plane && pass < 2; ++pass) {
-    std::vector<double> distances;
+    distances.clear();
     for (const Eigen::Vector3d& p : points)
       distances.push_back(std::abs(plane->signed_distance(p)));
     const double farthest =

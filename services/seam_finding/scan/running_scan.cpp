@@ -28,6 +28,7 @@ void RunningScan::take(const profile_t& profile, const StoredBackground* backgro
   if (background_id_ == 0 && prepared_.segmentation.size() == 0) background_id_ = id_of(background);
   builder_->add(profile);
   downsample(builder_->cloud(), prepared_.downsampled);
+  thin_out(builder_->cloud(), prepared_.thinned);
   seqs_.push_back(profile.seq);
   if (background && background->scan_id() == background_id_)
     segment(builder_->cloud(), background->model(), prepared_.segmentation);
@@ -49,6 +50,7 @@ const PreparedScan& RunningScan::finish(const CollectedScan& scan,
   if (!was_ready_) return prepared_ = prepare(scan, background);
   builder_->miss_until(scan.state.last_seq + 1);
   downsample(builder_->cloud(), prepared_.downsampled);
+  thin_out(builder_->cloud(), prepared_.thinned);
   prepared_.cloud = builder_->take_cloud();
   builder_.reset();
   if (!background || background->scan_id() != background_id_) prepared_.segmentation = {};

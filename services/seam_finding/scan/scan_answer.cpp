@@ -172,8 +172,9 @@ seam_t answer_workpiece(const CollectedScan& scan, const StoredBackground* backg
 }
 
 PreparedScan prepare(const CollectedScan& scan, const StoredBackground* background) {
-  PreparedScan prepared{cloud_of(scan), {}, {}};
+  PreparedScan prepared{cloud_of(scan), {}, {}, {}};
   downsample(prepared.cloud, prepared.downsampled);
+  thin_out(prepared.cloud, prepared.thinned);
   if (background) segment(prepared.cloud, background->model(), prepared.segmentation);
   return prepared;
 }
@@ -203,7 +204,8 @@ seam_t answer_workpiece(const CollectedScan& scan, const PreparedScan& prepared,
     seam.remark += "the camera was lost in the scan; ";
   SeamResult result = find_seam(cloud, prepared.segmentation, prepared.downsampled, settings,
                                 static_cast<std::uint64_t>(scan.state.scan_id));
-  if (settings.start_rule == StartRule::kEdges) rule(examine(cloud, result), result);
+  if (settings.start_rule == StartRule::kEdges)
+    rule(examine(cloud, prepared.thinned, result), result);
   fill_in(seam, result);
   seam.background_points = static_cast<int>(prepared.segmentation.background.size());
   fill_in_calibration_covariance(seam, scan, calibration);

@@ -10,6 +10,7 @@
 #include "services/seam_finding/background/segmentation.hpp"
 #include "services/seam_finding/cloud/downsampled_cloud.hpp"
 #include "services/seam_finding/model/scan_cloud.hpp"
+#include "services/seam_finding/referee/plate_view.hpp"
 #include "services/seam_finding/scan/scan_collector.hpp"
 #include "services/seam_finding/seam_finding_settings.hpp"
 
@@ -59,12 +60,13 @@ class StoredBackground {
 // for the surface is known from those beside them: no more than one in twenty, no two in a row.
 ScanRefusal background_error(const CollectedScan& scan);
 
-// A workpiece scan before the seam is sought: its cloud, downsampled, and segmented where there is
-// a background.
+// A workpiece scan before the seam is sought: its cloud, downsampled, thinned out for the referee,
+// and segmented where there is a background.
 struct PreparedScan {
   ScanCloud cloud;
   Segmentation segmentation;
   DownsampledCloud downsampled;
+  ThinnedScan thinned;
 };
 PreparedScan prepare(const CollectedScan& scan, const StoredBackground* background);
 

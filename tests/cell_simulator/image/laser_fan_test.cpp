@@ -38,6 +38,23 @@ std::vector<std::pair<double, double>> extents_in_y(const std::vector<LitLine>& 
 
 }  // namespace
 
+TEST_CASE("lines are parted where a band begins and ends, and each part answers as it does there") {
+  SceneObject floor{"floor", rectangle({-500, -500, 0}, {1000, 0, 0}, {0, 1000, 0}), matt()};
+  const LightSheet sheet{{0, 0, 300}, {1, 0, 0}, {0, 0, -1}, 0.4};  // lights the y axis
+  const auto all = extents_in_y(cast(Scene({floor}), sheet), [](const LitLine&) { return true; });
+  floor.band = SurfaceBand{{0, 20, 0}, {0, 1, 0}, 15, glossy()};
+  const Scene scene({floor});
+  const std::vector<LitLine> lines = cast(scene, sheet);
+  CHECK(extents_in_y(lines, [](const LitLine&) { return true; }) == all);
+  const auto is_glossy = [&](const LitLine& line) {
+    return scene.surface_at(line.triangle, (line.begin + line.end) / 2).specular_share > 0;
+  };
+  const auto within = extents_in_y(lines, is_glossy);
+  REQUIRE(within.size() == 1);
+  CHECK(within[0].first == Approx(5));
+  CHECK(within[0].second == Approx(35));
+}
+
 TEST_CASE("the fan lights a plane along one line, as wide as it opens") {
   const Scene scene({{"floor", rectangle({-500, -500, 0}, {1000, 0, 0}, {0, 1000, 0}), matt()}});
   LightSheet sheet;

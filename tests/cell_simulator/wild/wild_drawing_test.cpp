@@ -38,7 +38,7 @@ TEST_CASE("A hundred scenes of each joint are what their truth says", "[figures]
       const WildScene wild = draw_wild_scene(joint, seed);
       const Scene scene = build(wild, SceneKind::workpiece);
       const WildTruth truth = truth_of(wild);
-      REQUIRE(surfaces_of(wild, SceneKind::workpiece).size() == scene.objects().size());
+      REQUIRE(surfaces_of(wild, SceneKind::workpiece).size() == 2 * scene.objects().size());
       for (const WildSeam& seam : truth.seams) {
         CHECK((seam.end.point - seam.start.point).norm() > 20);
         CHECK(std::abs(seam.normals[0].dot(seam.direction)) < 0.06);
@@ -77,6 +77,13 @@ TEST_CASE("A hundred scenes of each joint are what their truth says", "[figures]
       kinds["sheet"] += work.first.thickness_mm <= 3 || work.second.thickness_mm <= 3;
       kinds["gap"] += work.gap_begin_mm > 0;
       kinds["bow"] += work.bow_mm != 0;
+      kinds["ground band"] += work.first.ground_mm > 0 || work.second.ground_mm > 0;
+      for (const WildPlate* plate : {&work.first, &work.second}) {
+        if (plate->ground_mm == 0) continue;
+        CHECK(plate->surface == mill_scale);
+        CHECK(plate->ground_mm >= 10);
+        CHECK(plate->ground_mm <= 30);
+      }
       kinds["beads"] += !work.beads.empty();
       kinds["turned cut at the start"] +=
           work.first.begin.turn_deg != 0 || work.second.begin.turn_deg != 0;
@@ -93,6 +100,8 @@ TEST_CASE("A hundred scenes of each joint are what their truth says", "[figures]
     CHECK(kinds["nothing lies about"] < 50);
     CHECK(kinds["wrong"] < 20);
     CHECK(kinds["bow"] > 5);
+    CHECK(kinds["ground band"] > 2);
+    CHECK(kinds["ground band"] < 30);
     CHECK(kinds["turned cut at the start"] > 20);
   }
 }
@@ -102,6 +111,33 @@ TEST_CASE("The same joint and seed draw the same scene, others another") {
   CHECK(to_json(draw_wild_scene("tee", 12)) != to_json(draw_wild_scene("tee", 13)));
   CHECK(to_json(draw_wild_scene("tee", 12)) != to_json(draw_wild_scene("inside_corner", 12)));
   CHECK_THROWS_AS(draw_wild_scene("weld", 1), SceneError);
+}
+
+TEST_CASE("A plate is ground beside the seam, as far as it says, wherever the work lies") {
+  WildScene wild = draw_wild_scene("tee", 12);
+  wild.works.resize(1);
+  wild.works[0].bow_mm = 0;
+  wild.works[0].first.ground_mm = 20;
+  wild.works[0].second.ground_mm = 12;
+  const Scene scene = build(wild, SceneKind::workpiece);
+  const WildTruth truth = truth_of(wild);
+  REQUIRE(!truth.seams.empty());
+  const WildSeam& seam = truth.seams[0];
+  const Vector3d middle = (seam.start.point + seam.end.point) / 2;
+  for (int j = 0; j < 2; ++j) {
+    const auto& band = scene.objects()[seam.objects[j]].band;
+    REQUIRE(band);
+    CHECK(band->surface.albedo == ground_steel.albedo);
+    // Away from the seam in the plate's own face.
+    const Vector3d away = seam.normals[j].cross(seam.direction);
+    const double width = j == 0 ? 20 : 12;
+    const double gap = std::max(seam.gap_start, seam.gap_end) + 0.1;
+    for (const double side : {-1.0, 1.0}) {
+      CHECK(band->contains(middle + side * (width - gap) * away));
+      CHECK_FALSE(band->contains(middle + side * (width + gap) * away));
+    }
+  }
+  CHECK(to_json(wild_scene_from_json(to_json(wild))) == to_json(wild));
 }
 
 TEST_CASE("A background scan shows the table and what lay there alone") {

@@ -27,13 +27,29 @@ std::string text_of(const fs::path& path) {
   return text.str();
 }
 
-// A rendered set as files, made anew for each test.
+constexpr int kPoses = 10;
+
+// A rendered set as files, made once and removed when all tests have ended.
+struct RenderedFolder {
+  RenderedFolder() {
+    fs::remove_all(path);
+    PlateImages images(small_sensor(), {});
+    write_folder(path.string(), images, {}, draw_poses(images, {}, {}, kPoses, 601), 0.1, 0.01,
+                 601);
+  }
+  ~RenderedFolder() { fs::remove_all(path); }
+
+  const fs::path path =
+      fs::temp_directory_path() / ("arcstart_rendered_set_" + std::to_string(getpid()));
+};
+
+// A copy of it for each test.
 struct SetFolder {
   SetFolder() {
+    static const RenderedFolder rendered;
     fs::remove_all(root);
-    PlateImages images(small_sensor(), {});
-    write_folder((root / "set").string(), images, {}, draw_poses(images, {}, {}, kPoses, 601), 0.1,
-                 0.01, 601);
+    fs::create_directories(root);
+    fs::copy(rendered.path, root / "set", fs::copy_options::recursive);
   }
   ~SetFolder() { fs::remove_all(root); }
 
@@ -61,7 +77,6 @@ struct SetFolder {
       cv::imwrite(entry.path().string(), image);
   }
 
-  static constexpr int kPoses = 10;
   const fs::path root =
       fs::temp_directory_path() / ("arcstart_calibrate_command_test_" + std::to_string(getpid()));
 };
@@ -75,7 +90,7 @@ TEST_CASE("a folder gives a calibration that the service reads, with its report"
   const auto json = nlohmann::json::parse(outcome.out);
   CHECK(json["verdict"] == "passed");
   CHECK(json["leave_one_out"]["laser_rms"].get<double>() < 0.4);
-  CHECK(json["poses"].size() == SetFolder::kPoses);
+  CHECK(json["poses"].size() == kPoses);
 
   const Calibration calibration = read_calibration_file((folder.root / "made.yaml").string());
   CHECK(calibration.id == json["id"]);
@@ -139,7 +154,7 @@ TEST_CASE("too few poses are refused, with what is missing") {
   for (int i = 0; i < 5 && std::getline(poses, line); ++i) kept += line + "\n";
   poses.close();
   std::ofstream(folder.root / "set/poses.csv") << kept;
-  for (int i = 5; i <= SetFolder::kPoses; ++i)
+  for (int i = 5; i <= kPoses; ++i)
     for (const char* name : {"grid", "laser"})
       fs::remove(folder.root / "set" / name /
                  (i < 10 ? "000" + std::to_string(i) + ".png" : "0010.png"));

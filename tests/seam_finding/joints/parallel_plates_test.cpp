@@ -78,7 +78,8 @@ TEST_CASE("a lap of thin sheet is a lap where one is asked for, and begins with 
   }
 }
 
-TEST_CASE("plates whose tops differ by less than 1 mm are a butt joint where one is asked for") {
+TEST_CASE("plates whose tops differ by less than 1 mm are a butt joint where one is asked for",
+          "[figures]") {
   for (const double raised : {-0.85, 0.85})
     for (int seed = 1; seed <= seeds; ++seed) {
       const SeamResult result = find(stepped_butt(seed, 0, raised), "butt", seed);
@@ -88,7 +89,7 @@ TEST_CASE("plates whose tops differ by less than 1 mm are a butt joint where one
     }
 }
 
-TEST_CASE("a lap of thin sheet is no butt joint") {
+TEST_CASE("a lap of thin sheet is no butt joint", "[figures]") {
   for (const double thickness : {1.2, 2.0})
     for (int seed = 1; seed <= seeds; ++seed) {
       INFO("seed " << seed << ", " << thickness << " mm");
@@ -97,7 +98,8 @@ TEST_CASE("a lap of thin sheet is no butt joint") {
     }
 }
 
-TEST_CASE("beside a step the seam's deviation across covers what the higher edge hides") {
+TEST_CASE("beside a step the seam's deviation across covers what the higher edge hides",
+          "[figures]") {
   // The edges touch: where the truth is, the higher plate's edge is seen, the lower one's is not.
   const double raised = GENERATE(-0.85, 0.85);
   for (int seed = 1; seed <= seeds; ++seed) {

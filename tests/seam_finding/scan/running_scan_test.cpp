@@ -64,6 +64,13 @@ bool same_as_at_once(RunningScan& running, const CollectedScan& scan,
     same = same && a.stripe == b.stripe && a.segment == b.segment &&
            a.segment_end == b.segment_end && a.deviation == b.deviation && a.step == b.step;
   }
+  REQUIRE(ready.thinned.points.size() == judge.thinned.points.size());
+  same = same && ready.thinned.behind == judge.thinned.behind &&
+         std::equal(judge.thinned.points.begin(), judge.thinned.points.end(),
+                    ready.thinned.points.begin(), [](const ThinnedPoint& a, const ThinnedPoint& b) {
+                      return a.at == b.at && a.index == b.index && a.segment == b.segment &&
+                             a.ends == b.ends;
+                    });
   return same && bytes_of(answer_workpiece(scan, ready, background, {})) ==
                      bytes_of(answer_workpiece(scan, background, {}));
 }

@@ -19,6 +19,7 @@ constexpr int lost_px = 3;         // a longer one parts a segment
 struct Chain {
   std::vector<Vector2d> corners;
   std::vector<int> objects;
+  std::vector<char> in_band;
   std::vector<double> arc;  // length up to each corner; px
   bool ghost = false;
 };
@@ -30,13 +31,14 @@ std::vector<Chain> chains_of(const std::vector<WildPiece>& pieces) {
                     (chains.back().corners.back() - piece.begin_px).norm() < joined_px;
     const int object = piece.ghost ? -1 : piece.object;
     if (!on) {
-      chains.push_back({{piece.begin_px}, {}, {0}, piece.ghost});
+      chains.push_back({{piece.begin_px}, {}, {}, {0}, piece.ghost});
     }
     Chain& chain = chains.back();
     const double length = (piece.end_px - chain.corners.back()).norm();
     if (length < 1e-9) continue;
     chain.corners.push_back(piece.end_px);
     chain.objects.push_back(object);
+    chain.in_band.push_back(piece.in_band);
     chain.arc.push_back(chain.arc.back() + length);
   }
   return chains;
@@ -157,7 +159,9 @@ std::vector<WildCentre> centres_of(const std::vector<WildPiece>& pieces,
     for (std::size_t i = 0; i < places.size(); ++i) {
       const Place& place = places[i];
       const int object = chain.objects[place.piece];
-      const WildSurface surface = object < 0 ? WildSurface{} : surfaces[object];
+      const bool in_band = chain.in_band[place.piece] != 0;
+      const WildSurface surface =
+          object < 0 ? WildSurface{} : surfaces[object + (in_band ? surfaces.size() / 2 : 0)];
       if (surface.dropout_share > 0 && to_drop == 0 &&
           random.uniform() < surface.dropout_share / run_px)
         to_drop = 1 + static_cast<int>(-run_px * std::log(1 - random.uniform()));

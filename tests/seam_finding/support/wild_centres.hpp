@@ -28,6 +28,7 @@ struct WildExtraction {
   double least_length_px = 10;  // shorter segments are left out
 };
 
+// surfaces: as surfaces_of() has them, those of the bands behind those of the objects.
 std::vector<WildCentre> centres_of(const std::vector<WildPiece>& pieces,
                                    const std::vector<cell_simulator::WildSurface>& surfaces,
                                    const WildExtraction& extraction,

@@ -74,7 +74,8 @@ class Scanner {
         random_(wild.seed, kind == SceneKind::workpiece ? kWorkpiece : kBackground) {
     for (const WildSeam& seam : truth_.seams) sightings_.emplace_back(seam, wild.scan.pitch_mm);
     for (const SceneObject& object : scene.objects())
-      mirrors_ = mirrors_ || object.surface.specular_share >= ghost_from_share;
+      mirrors_ = mirrors_ || object.surface.specular_share >= ghost_from_share ||
+                 (object.band && object.band->surface.specular_share >= ghost_from_share);
   }
 
   WildScan scan() {

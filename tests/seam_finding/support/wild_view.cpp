@@ -113,8 +113,11 @@ class View {
     const auto first = see(sensor_, T_camera_base_ * from),
                last = see(sensor_, T_camera_base_ * to);
     if (!first || !last) return;
-    pieces.push_back({from, to, *first, *last, scene_.triangles().object_of(line.triangle),
-                      scene_.triangles().triangle(line.triangle).normal, line.ghost});
+    const int object = scene_.triangles().object_of(line.triangle);
+    const auto& band = scene_.objects()[object].band;
+    pieces.push_back({from, to, *first, *last, object,
+                      scene_.triangles().triangle(line.triangle).normal, line.ghost,
+                      band && band->contains((from + to) / 2)});
   }
 
   const Scene& scene_;

@@ -18,6 +18,7 @@ struct WildPiece {
   int object;              // in Scene::objects(); -1: something on the tool
   Eigen::Vector3d normal;  // of the triangle
   bool ghost = false;      // lit by what another surface mirrors
+  bool in_band = false;    // of its object, where that answers light in another way
 };
 
 // on_tool: what is before the sensor, in camera; nullptr: nothing. Ghosts come last, those that at

@@ -48,6 +48,21 @@ TEST_CASE("Pieces that part in the image are segments of their own, short ones a
   CHECK(centres.back().segment_end == profile_t::EDGE);
 }
 
+TEST_CASE("In a band of its object a stripe has the band's noise") {
+  RandomStream random(1);
+  WildExtraction extraction = exact;
+  extraction.noise_factor = 1;
+  WildPiece ground = piece({800, 50}, {1500, 50});
+  ground.in_band = true;
+  const auto centres = centres_of({piece({100, 50}, {800, 50}), ground},
+                                  {noisy(0.2, 0), noisy(0.05, 0)}, extraction, random);
+  CHECK(centres.back().segment == 0);
+  for (const WildCentre& centre : centres) {
+    if (std::abs(centre.pixel.x() - 800) < 1) continue;
+    CHECK(centre.deviation == (centre.pixel.x() < 800 ? 0.2 : 0.05));
+  }
+}
+
 TEST_CASE("Noise lies across the stripe, and bends are rounded as a Gaussian does") {
   RandomStream random(1);
   WildExtraction extraction = exact;

@@ -35,6 +35,7 @@ class Tags {
     add(!plate.notches.empty(), "notch");
     add(plate.surface.specular_share > 0.3, "mirror");
     add(plate.surface.albedo < 0.1, "black");
+    add(plate.ground_mm > 0, "ground_band");
   }
 
   void add_work(const WildWork& work) {
