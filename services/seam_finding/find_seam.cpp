@@ -8,6 +8,7 @@
 #include "services/seam_finding/background/scan_view.hpp"
 #include "services/seam_finding/cloud/sampling.hpp"
 #include "services/seam_finding/cloud/scales.hpp"
+#include "services/seam_finding/ends/seam_ends.hpp"
 #include "services/seam_finding/geometry/joint_candidates.hpp"
 #include "services/seam_finding/geometry/joint_geometry.hpp"
 #include "services/seam_finding/joints/joint_choice.hpp"
@@ -41,7 +42,7 @@ SeamResult not_found(Choice choice) {
 // The ends by the rule that is set.
 std::array<SeamEnd, 2> find_ends(const ScanCloud& cloud, const Joint& joint, const Scales& scales,
                                  const SeamFindingSettings& settings) {
-  auto ends = geometry_of(joint).ends(cloud, joint, scales, settings);
+  auto ends = find_seam_ends(cloud, joint, scales, settings);
   if (settings.start_rule == StartRule::kStripe) ends[0].along = joint.coverage.begin;
   if (settings.start_rule == StartRule::kCentroid && !joint.parallel)
     ends[0].along =

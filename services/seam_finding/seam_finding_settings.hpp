@@ -14,10 +14,15 @@ enum class StartRule { kEdges, kStripe, kCentroid };
 struct SeamFindingSettings {
   // Background. `surface`: nearer than the distance to the background's local surface.
   // `neighbours`: the paper's rule, the K-th nearest background point is nearer than that; it needs
-  // stripes closer together than the distance. The thinnest sheet that lies on the table, of 0.8 mm,
-  // is thicker than that; what two scans of one table differ by is less.
+  // stripes closer together than the distance.
   BackgroundRule background_rule = BackgroundRule::kSurface;
-  double background_distance_mm = 0.7;
+  // 0: by the rule. `neighbours`: the paper's 1.5. `surface`: 0.7, for the thinnest sheet that lies
+  // on the table, of 0.8 mm, is thicker, and what two scans of one table differ by is less.
+  double background_distance_mm = 0;
+  double background_distance() const {
+    if (background_distance_mm > 0) return background_distance_mm;
+    return background_rule == BackgroundRule::kNeighbours ? 1.5 : 0.7;
+  }
   int background_neighbours = 3;  // K
 
   // Planes. `ranked`: all planes of what is left, and of all their pairs the best joint. `largest`:
@@ -95,7 +100,7 @@ struct SeamFindingSettings {
   template <class Visitor>
   void visit(Visitor& visitor) {
     visitor("background_rule", background_rule, Names{{"surface", "neighbours"}});
-    visitor("background_distance_mm", background_distance_mm, between(0.05, 20));
+    visitor("background_distance_mm", background_distance_mm, between(0, 20));
     visitor("background_neighbours", background_neighbours, between(1, 50));
     visitor("plane_rule", plane_rule, Names{{"ranked", "largest"}});
     visitor("planes_max", planes_max, between(2, 64));

@@ -39,7 +39,7 @@ Case make_case(const SceneChoice& choice, const ScanChoice& scan, int seed) {
 }
 
 SeamResult find(const Case& made, int seed, const SeamFindingSettings& settings = {}) {
-  const SurfaceBackground background(made.empty, settings.background_distance_mm);
+  const SurfaceBackground background(made.empty, settings.background_distance());
   return find_seam(made.work.cloud, background, settings, seed);
 }
 
@@ -102,7 +102,7 @@ std::vector<Row> rows() {
       {"tool", tool, usual, 50, 0.15, 0.6, 0.05, 0.05},
       {"tool, noise 0.3 mm", tool, noisy, 50, 0.2, 0.6, 0.15, 0.12},
       {"box larger than the work", {.big_box = true}, usual, 50, 0.15, 0.6, 0.05, 0.06},
-      {"box before the start", {.box_on_base = true}, usual, 100, 0.15, 0.6, 0.07, 0.06},
+      {"box before the start", {.box_on_base = true}, usual, 100, 0.15, 0.8, 0.07, 0.06},
       {"base begins earlier", {.tool = true, .base_overhang = 10}, usual, 20, 0.3, 1, 0.05, 0.05},
       {"base begins later", {.tool = true, .base_overhang = -10}, usual, 20, 0.3, 2.2, 0.06, 0.06},
       {"75 deg", {.tilt_deg = 75}, usual, 20, 0.2, 0.8, 0.05, 0.05},

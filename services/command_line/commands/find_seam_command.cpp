@@ -181,7 +181,7 @@ int run(const FindSeamOptions& options) {
   if (!options.background.empty()) {
     empty_cell = seam_finding::unorganised_cloud(read_in_mm(options.background, options).points);
     background = std::make_unique<seam_finding::SurfaceBackground>(empty_cell,
-                                                                   settings.background_distance_mm);
+                                                                   settings.background_distance());
   } else if (options.remove_plane && plane) {
     background = std::make_unique<seam_finding::PlaneBackground>(cloud, *plane);
   }

@@ -83,6 +83,11 @@ SeamResult describe(Joint joint, Findings findings, const SeamFindingSettings& s
   result.end = joint.line.at(end.along);
   result.start_visibility = start.visibility;
   result.end_visibility = end.visibility;
+  const auto second = [&joint](const SeamEnd& place) {
+    return SecondPlace{joint.line.at(place.second), place.second_weight};
+  };
+  if (start.second_weight > 0) result.start_second = second(start);
+  if (end.second_weight > 0) result.end_second = second(end);
   result.accuracy = findings.accuracy;
   if (findings.with_stripes) {
     remark(remark_on(start, SeamSide::kBegin));

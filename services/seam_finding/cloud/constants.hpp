@@ -26,6 +26,9 @@ struct CloudConstants {
   double thinned_step = 1.5;
   // mm; a point's distance from its plane, at least and at most, where the noise sets it - bench.
   double least_tolerance = 0.6, most_tolerance = 6;
+  // mm; way in a stripe over which errors do not depend on each other: ten pixels. And how much
+  // more points scatter between stripes than in them, at most: positions err, too - bench: wild.
+  double chord = 1.5, between_stripes = 3;
   // mm; below this the noise cannot be measured - bench.
   double least_noise = 0.01;
   // Contact over the points' distance along a stripe - bench: rows m1, m5, m20.

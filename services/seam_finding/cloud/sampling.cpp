@@ -86,6 +86,25 @@ double surface_noise(const ScanCloud& cloud, double radius) {
   return quantile(found, 0.35);
 }
 
+// The typical distance of points from the chord between others in their stripe, as far away as
+// their errors do not depend on each other; what stands about in the scene bends few of them.
+// pitch: of the points in a stripe; mm.
+double stripe_noise(const ScanCloud& cloud, double pitch) {
+  std::vector<double> found;
+  const int every = 1 + cloud.size() / kCloud.noise_points;
+  const int beside = std::max(1, static_cast<int>(std::lround(kCloud.chord / pitch)));
+  for (int i = beside; i + beside < cloud.size(); i += every) {
+    const PointOrigin &before = cloud.origins[i - beside], &after = cloud.origins[i + beside];
+    if (before.stripe != after.stripe || before.segment != after.segment) continue;
+    const Eigen::Vector3d& from = cloud.points[i - beside];
+    const Eigen::Vector3d chord = cloud.points[i + beside] - from;
+    if (const double length = chord.norm(); length > 0)
+      found.push_back(chord.cross(cloud.points[i] - from).norm() / length);
+  }
+  // The point itself varies, and the middle of its neighbours by half as much.
+  return kFit.median_to_deviation * quantile(found, 0.5) / std::sqrt(1.5);
+}
+
 }  // namespace
 
 Sampling measure_sampling(const ScanCloud& cloud) {
@@ -98,6 +117,10 @@ Sampling measure_sampling(const ScanCloud& cloud) {
     sampling.pitch = quantile(steps, 0.5);
   }
   sampling.noise = surface_noise(cloud, 3 * sampling.spacing);
+  // Between stripes points scatter more, but not as much as where hardly a neighbourhood is flat.
+  if (cloud.organised() && sampling.pitch > 0)
+    sampling.noise =
+        std::min(sampling.noise, kCloud.between_stripes * stripe_noise(cloud, sampling.pitch));
   return sampling;
 }
 

@@ -2,7 +2,9 @@
 // known, scripts/bench seam judges the number.
 #pragma once
 
+#include <array>
 #include <cstddef>
+#include <utility>
 
 #include "services/seam_finding/coverage/constants.hpp"
 
@@ -25,6 +27,9 @@ struct EndConstants {
   double cut_slant = 0.15;
   // mm; standard deviation of an edge face's place along the seam - bench.
   double cut_noise = 0.07;
+  // mm behind or before a plate for each mm of a stripe that leaves it over its edge, at least:
+  // bent plates leave their plane by less - bench: wild.
+  double least_turn = 0.2;
   // mm; over such a way the noise of points leaves a direction known - bench.
   double direction_base = 3;
   // Steps that show the usual one - bench.
@@ -32,14 +37,16 @@ struct EndConstants {
   // Of a stripe, mm along the seam for each mm of its length, at least - bench.
   double least_slant = 0.05;
 
-  // A plate's end edge.
+  // mm; away from the seam, within which places lie on the plate's side; and by twice as much they
+  // are apart along it: no end is so steep - bench: row short_base.
+  double side_edge = 1.5;
+
+  // A plate's edge.
 
   // mm; places on one edge agree so well along the seam - bench.
   double agree = 0.35;
-  // mm; standard deviation of a place along the seam, at least; and places with that noise that
-  // enter the estimate of the noise - bench.
+  // mm; standard deviation of a place along the seam, at least - bench.
   double least_place_noise = 0.015;
-  int prior_places = 2;
   // mm; standard deviation of an edge, whatever the number of its places - bench.
   double edge_floor = 0.01;
   // px square to the edge; what all its places have in common: light ends over edges in many ways -
@@ -47,61 +54,72 @@ struct EndConstants {
   double common_deviation = 0.1;
   // Along the seam for each mm away, of an edge, at most - cut up to 31 degrees.
   double steepest = 0.6;
-  // Places on a slanting edge, at least - two lie on some edge always.
-  int slope_places = 3;
-  // Of a slanting edge's places, by how much they outweigh a square one's - one sharp place.
-  double slanted = 0.7;
-  // Times less do places scatter about a slope that they show plainly, and more before - bench.
-  double plainly = 2;
-  // Sharp places, at least, of an edge where none was expected - bench.
-  int sharp_beyond = 2;
-  // Standard deviation over the median of absolute values - the reciprocal of 0.6745, the upper
-  // quartile of the normal distribution, rounded more than kFit.median_to_deviation.
-  double rounded_median_to_deviation = 1.483;
-  // mm; odds that plates are cut flush, 3 to 7, times the way over which others' edges scatter
-  // about each other, 13, over the root of 2 pi; rounded - bench.
-  double flush_odds = 2.3;
+  // Share of plates that are not cut square to the seam - bench: wild.
+  double slanted_share = 0.2;
+  // Slopes up to the steepest that stand for all where none is told - a tenth of the reach.
+  int slanted_steps = 10;
+  // Slopes told by crossings that are looked at, at most - bench.
+  std::size_t most_told = 2;
+  // mm; standard deviation of a place along the seam by which a slope is told - bench.
+  double told_noise = 0.05;
+  // mm; standard deviations by which an edge is rough (milled, sheared, cut by flame), and their
+  // shares - bench: wild.
+  std::array<std::pair<double, double>, 3> roughness = {std::pair{0.0, 0.6}, std::pair{0.12, 0.25},
+                                                        std::pair{0.45, 0.15}};
 
-  // Between which stripes a plate ends.
+  // Share of plates whose corner is cut out beside the seam; mm, so far at most - cope holes of
+  // rolled sections, AWS D1.1 and EN 1090. mm; what tells it lies so near the seam; and logarithm
+  // by which it speaks against the edge - bench: wild.
+  double coped_share = 0.05, cope_most = 25, cope_seen = 6, cope_told = 3;
+
+  // What a stripe shows though the edge is not there: probabilities, a stripe.
+
+  // Something behind the plate: a reflection, or a hole in it - bench.
+  double seen_past = 0.03;
+  // Nothing of the plate at the seam; and where something stands that may hide it - bench.
+  double absent = 0.02, absent_covered = 0.97;
+  // The less likely of the two, if a stripe shows both - bench.
+  double second_witness = 0.5;
+  // A stripe that ends on the plate; where light falls on something behind it; and where something
+  // stands that may hide it - bench.
+  double ends_early = 0.1, ends_falling = 0.02, ends_covered = 0.7;
+  // mm; over which such ends lie, all places alike - what is seen about an end.
+  double way_seen = 30;
+  // Another thing in the plate's plane; and behind a place that is seen past - bench.
+  double on_other = 0.02, on_thing = 0.3;
+
+  // Both plates.
 
   // Share of joints whose plates end together, and the mm over which the others' ends scatter about
   // each other - bench.
   double flush_share = 0.3, offsets = 40;
   // mm; half a stripe's width, over which it is seen where it falls - bench.
   double half_stripe = 0.15;
-  // Share of possibilities that do not count - bench.
+  // mm; between the points of a stripe that are looked at for what lies behind the plates, at most,
+  // and before them - a third of what is told apart.
+  double looked_behind = 0.8, looked_before = 1.6;
+
+  // Stripes, at least, that end at the outline of what hides an end: a lone one may show a
+  // reflection.
+  int outline_stripes = 2;
+
+  // The grid over the places of an end.
+
+  // mm - half of it gives the same errors: bench.
+  double grid_step = 0.05;
+  // mm; inward and outward from where both plates were last shown together - bench.
+  double inside = 30, outside = 60;
+  // Logarithm of what counts beside the best - 1e-9.
+  double least_log = -20;
+  // 1/mm; less dense places part two modes - bench.
+  double least_density = 1e-4;
+  // Cells squared; variance of one step of a blur, at most - for three cells.
+  double blur_variance = 0.5;
+  // Probability that does not count - an error of three deviations.
   double never = 0.01;
-  // mm along the seam; a stripe shows a plate at the seam also where it leaves it so little before,
-  // and a part of that for each mm before it - bench.
-  double margin = 0.5, margin_slant = 0.5;
-
-  // Crossing plates.
-
-  // mm; what is higher over a plate hides it for certain - bench.
-  double hides = 3;
-  // mm; about another plate's edge, where a lone stripe's may be flush with it - bench.
-  double flush_within = 0.6;
-  // Standard deviations of the difference of two edges that may be one - bench.
-  double same_edge = 2.5;
-  // px; how well a stripe's last light is known - bench.
-  double light_extent = 0.25;
-  // Of `near`; a stripe that leaves a plate so near may not show it - bench.
-  double unseen = 2;
-  // Stripe spacings beyond the window, where several stripes may still show an edge - bench.
-  double beyond = 3;
-  // mm; beside an edge's places what is seen is the plate's own - bench.
-  double beside_edge = 3;
-  // mm; farther out than that, an edge outweighs a stripe that shows nothing there - bench.
-  double farther_out = 5;
-
-  // Parallel plates. Flat on the table a plate's edge is crossed by few stripes, at a small slant.
-
-  // Of the variance of an edge that many would cross; and mm - bench: rows lap, butt, v.
-  double parallel_factor = 2.25, parallel_floor = 0.08;
-  // Of what shows a plate, over the distance that does - bench: rows lap, butt, v.
-  double shortest_shown = 1.5;
-  // Steps of an integral - none known.
-  int integral_steps = 200;
+  // Stripe spacings; standard deviation up to which an end was seen; and up to which its edge was -
+  // bench.
+  double seen_spacings = 1, by_edges = 0.15;
 };
 inline constexpr EndConstants kEnds;
 

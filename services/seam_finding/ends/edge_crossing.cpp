@@ -55,13 +55,13 @@ std::optional<double> cut_beyond(const ScanCloud& cloud, const JointPlate& plate
 // Where the light at a segment's end lies. Of a stripe that is cut off at a slant the last of the
 // light lies beside the laser's plane, but on the plate it does lie: where the line of sight meets
 // it.
-std::optional<Eigen::Vector3d> on_plate(const ScanCloud& cloud, const JointPlate& plate, int i) {
+std::optional<Eigen::Vector3d> on_plate(const ScanCloud& cloud, const PlateStripes& stripes,
+                                        int i) {
   const Eigen::Vector3d& eye = cloud.seen_from(i);
   const Eigen::Vector3d sight = cloud.points[i] - eye;
-  const double toward = -plate.plane.normal.dot(sight.normalized());
+  const double toward = -stripes.plate.plane.normal.dot(sight.normalized());
   if (toward < kVisibility.least_sight) return std::nullopt;
-  return cloud.points[i] +
-         sight.normalized() * (plate.plane.signed_distance(cloud.points[i]) / toward);
+  return cloud.points[i] + sight.normalized() * (height_over(stripes, cloud.points[i]) / toward);
 }
 
 // Way along the seam that shifts an edge square to it by a pixel in the image; mm. A pixel is known
@@ -94,7 +94,7 @@ std::optional<EdgeCrossing> edge_crossing(const ScanCloud& cloud, const std::vec
   const ScanStripe& stripe = cloud.stripes[cloud.origins[last].stripe];
   const bool more = beyond >= stripe.first && beyond < stripe.first + stripe.count;
   const bool joined = more && cloud.origins[beyond].segment == cloud.origins[last].segment;
-  if (joined && std::abs(plate.plane.signed_distance(cloud.points[beyond])) <= scales.tolerance)
+  if (joined && std::abs(height_over(stripes, cloud.points[beyond])) <= scales.tolerance)
     return std::nullopt;  // the plate goes on
   // Through the seam to the other plate.
   if (joined &&
@@ -108,7 +108,7 @@ std::optional<EdgeCrossing> edge_crossing(const ScanCloud& cloud, const std::vec
   EdgeCrossing place;
   if (cloud.origins[last].segment_end) {
     // Known to a centre.
-    const auto point = on_plate(cloud, plate, last);
+    const auto point = on_plate(cloud, stripes, last);
     if (!point) return std::nullopt;
     const int inner = at_back ? run[run.size() - 2] : run[1];
     place.pixel = pixel_along(cloud, last, inner, line, stripes.away);
@@ -126,12 +126,25 @@ std::optional<EdgeCrossing> edge_crossing(const ScanCloud& cloud, const std::vec
     const Eigen::Vector3d point = cloud.points[last] + 0.5 * step * direction;
     place.along = cut ? *cut : line.along(point);
     place.away = stripes.away.dot(point - line.point);
-    place.deviation = cut ? std::hypot(kEnds.cut_noise, kVisibility.beam * scales.noise)
-                          : slant * step / std::sqrt(12.0);
+    if (cut) {
+      place.deviation = std::hypot(kEnds.cut_noise, kVisibility.beam * scales.noise);
+    } else {
+      // Where the stripe leaves the plane gently, the plate is bent.
+      if (joined && std::abs(height_over(stripes, cloud.points[beyond])) <
+                        kEnds.least_turn * (cloud.points[beyond] - cloud.points[last]).norm())
+        return std::nullopt;
+      place.deviation = slant * step / std::sqrt(12.0);
+      place.deviation_away = direction.dot(stripes.away) * step / std::sqrt(12.0);
+    }
     place.sharp = cut.has_value();
   }
-  place.falls = more && plate.plane.signed_distance(cloud.points[beyond]) < -2 * scales.tolerance;
-  place.occluded = more && plate.plane.signed_distance(cloud.points[beyond]) > 2 * scales.tolerance;
+  if (!more) return place;
+  const double height = height_over(stripes, cloud.points[beyond]);
+  place.occluded = height > 2 * scales.tolerance;
+  // Not behind a shadow that is longer than the plate's own edge throws: of something before it.
+  if (const auto through = seen_through(cloud, stripes, beyond, 2 * scales.tolerance))
+    place.falls = (*through - cloud.points[last]).norm() <=
+                  kVisibility.hidden_beside - kVisibility.hidden_slope * height;
   return place;
 }
 

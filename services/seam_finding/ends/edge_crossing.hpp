@@ -14,7 +14,8 @@ namespace arcstart::seam_finding {
 
 struct EdgeCrossing {
   double along = 0, away = 0;  // of the seam, from it; mm
-  double deviation = 0;        // of along, for want of resolution alone; mm
+  // For want of resolution alone, of along and, with it, of away: both move along the stripe; mm.
+  double deviation = 0, deviation_away = 0;
   double pixel = 0;    // what a pixel square to the edge is along the seam; mm, at a segment's end
   bool sharp = false;  // a segment ends there, or turns over the edge
   bool occluded = false;

@@ -6,8 +6,6 @@
 
 #include "services/seam_finding/answer/accuracy.hpp"
 #include "services/seam_finding/answer/seam_measurements.hpp"
-#include "services/seam_finding/ends/crossing_ends.hpp"
-#include "services/seam_finding/ends/parallel_ends.hpp"
 #include "services/seam_finding/joints/crossing_joints.hpp"
 #include "services/seam_finding/joints/parallel_joints.hpp"
 
@@ -29,10 +27,6 @@ class CrossingPlates : public JointGeometry {
       std::move(found.begin(), found.end(), std::back_inserter(joints));
     }
     return joints;
-  }
-  std::array<SeamEnd, 2> ends(const ScanCloud& cloud, const Joint& joint, const Scales& scales,
-                              const SeamFindingSettings& settings) const override {
-    return find_crossing_ends(cloud, joint, scales, settings);
   }
   std::optional<SeamAccuracy> accuracy(const ScanCloud& cloud, const Joint& joint,
                                        const std::array<SeamEnd, 2>& ends, const Scales& scales,
@@ -62,10 +56,6 @@ class ParallelPlates : public JointGeometry {
     for (Face& face : whole)
       face.points = scan.all_on_plane(std::move(face.points), face.plane, scales.tolerance);
     return find_parallel_joints(scan.points_for(Stage::kMeasure), whole, scales, settings);
-  }
-  std::array<SeamEnd, 2> ends(const ScanCloud& cloud, const Joint& joint, const Scales& scales,
-                              const SeamFindingSettings& settings) const override {
-    return find_parallel_ends(cloud, joint, scales, settings);
   }
   std::optional<SeamAccuracy> accuracy(const ScanCloud& cloud, const Joint& joint,
                                        const std::array<SeamEnd, 2>& ends, const Scales& scales,

@@ -26,10 +26,6 @@ class JointGeometry {
   virtual std::vector<Joint> candidates(const ScanView& scan, const std::vector<Face>& faces,
                                         const Scales& scales,
                                         const SeamFindingSettings& settings) const = 0;
-  // Start and end, along the joint's line.
-  virtual std::array<SeamEnd, 2> ends(const ScanCloud& cloud, const Joint& joint,
-                                      const Scales& scales,
-                                      const SeamFindingSettings& settings) const = 0;
   // Nothing where it is not determined.
   virtual std::optional<SeamAccuracy> accuracy(const ScanCloud& cloud, const Joint& joint,
                                                const std::array<SeamEnd, 2>& ends,

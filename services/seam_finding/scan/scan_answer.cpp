@@ -137,9 +137,9 @@ StoredBackground::StoredBackground(const CollectedScan& scan, const SeamFindingS
   calibration_id_ = calibration_of(scan);
   if (settings.background_rule == BackgroundRule::kNeighbours)
     model_ = std::make_unique<NeighbourBackground>(*cloud_, settings.background_neighbours,
-                                                   settings.background_distance_mm);
+                                                   settings.background_distance());
   else
-    model_ = std::make_unique<SurfaceBackground>(*cloud_, settings.background_distance_mm);
+    model_ = std::make_unique<SurfaceBackground>(*cloud_, settings.background_distance());
 }
 
 ScanRefusal background_error(const CollectedScan& scan) {

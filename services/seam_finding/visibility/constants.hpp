@@ -2,6 +2,8 @@
 // "bench": none is known, scripts/bench seam judges the number.
 #pragma once
 
+#include <cstddef>
+
 #include "services/seam_finding/model/constants.hpp"
 
 namespace arcstart::seam_finding {
@@ -12,8 +14,6 @@ struct VisibilityConstants {
   double near_seam = 3;
   // mm; so near a plate's far edge it may be that edge that a stripe leaves it by - bench.
   double far_edge = 3;
-  // A plate end's slope, mm along the seam for each mm away from it, at most - bench.
-  double end_slope = 0.01;
   // A point's noise along the seam over that across its surface - bench.
   double beam = 0.5;
   // Sine of the angle between a line of sight and a plate, at least - bench.
@@ -27,22 +27,27 @@ struct VisibilityConstants {
   // mm; what is longer does lie in it - bench: row glare.
   double long_piece = 15;
 
+  // 1/mm; of a plate along the seam: 1 mm in 100, up and down - twice what plates are bent.
+  double most_curved = 8e-4;
+  // 1/mm; below it a plate of 200 mm leaves its plane by a quarter of a tolerance - bench: wild.
+  double least_curved = 1.5e-5;
+  // mm; from its plane, of a bent plate - 1 mm in 100, over 250.
+  double most_bent = 2.5;
+  // mm; from the seam, what shows the bend - its middle.
+  double bend_reach = 40;
+  // Points, at least, that tell a bend; of the scan so many are looked at, for speed; and passes,
+  // by which the bend is followed outward - bench.
+  std::size_t bend_points = 50, bend_sample = 5000;
+  int bend_passes = 4;
+  // Of the noise; a bent plate's points are no farther from its bend, on average - bench: wild.
+  double bend_noises = 2;
+
   // mm; from the seam another thing may touch the plate, as high - bench: row box_on_base.
   double farthest = 55;
-  // mm; a plate seen so far beyond the seam's end may be another thing as high - bench.
-  double goes_on = 5;
   // mm; light that falls past a plate is so wide, spatter is not - bench: row glare.
   double least_fall = 12;
-  // mm; so far before others a lone stripe sees a reflection, not past the plate - bench.
-  double lone_stripe = 12;
-  // mm; from the seam, that other thing lies no nearer - bench: row box_on_base.
-  double close = 30;
   // mm; between the places where light and sight meet the plane, at most - bench.
   double askew = 5;
-  // mm; along the seam between neighbours in a row, at most - bench.
-  double row_step = 1.5;
-  // mm; from the end, the stripes that show where it is - bench.
-  double around_end = 40;
 
   // mm; what stands before a seam lies so near it - bench: rows tool, tool_block.
   double before_reach = 60;

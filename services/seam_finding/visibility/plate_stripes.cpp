@@ -10,7 +10,8 @@ namespace arcstart::seam_finding {
 namespace {
 
 // Leaves out short stretches of neighbours that rise from the plane all the way.
-void drop_askew(const ScanCloud& cloud, const Plane& plane, double noise, std::vector<int>& run) {
+void drop_askew(const ScanCloud& cloud, const PlateStripes& stripes, double noise,
+                std::vector<int>& run) {
   auto kept = run.begin();
   for (auto begin = run.begin(), end = begin; begin != run.end(); begin = end) {
     for (++end; end != run.end() && *end == end[-1] + 1 &&
@@ -23,7 +24,7 @@ void drop_askew(const ScanCloud& cloud, const Plane& plane, double noise, std::v
       double n = 0, s = 0, h = 0, ss = 0, sh = 0;
       for (auto i = begin; i != end; ++i) {
         const double along = direction.dot(cloud.points[*i] - first);
-        const double height = plane.signed_distance(cloud.points[*i]);
+        const double height = height_over(stripes, cloud.points[*i]);
         n += 1, s += along, h += height, ss += along * along, sh += along * height;
       }
       const double spread = ss - s * s / n;
@@ -49,6 +50,17 @@ double usual_reach(const ScanCloud& cloud, const PlateStripes& stripes) {
 
 }  // namespace
 
+double height_over(const PlateStripes& stripes, const Eigen::Vector3d& point) {
+  return stripes.plate.plane.signed_distance(point) - stripes.bend.at(stripes.line.along(point));
+}
+
+std::optional<Eigen::Vector3d> seen_through(const ScanCloud& cloud, const PlateStripes& stripes,
+                                            int point, double tolerance) {
+  Plane plane = stripes.plate.plane;
+  plane.offset -= stripes.bend.at(stripes.line.along(cloud.points[point]));
+  return seen_through(cloud, plane, point, tolerance);
+}
+
 std::optional<Eigen::Vector3d> seen_through(const ScanCloud& cloud, const Plane& plane, int point,
                                             double tolerance) {
   const double depth = -plane.signed_distance(cloud.points[point]);
@@ -64,18 +76,25 @@ PlateStripes plate_stripes(const ScanCloud& cloud, const JointPlate& plate, cons
   PlateStripes stripes{plate, other, line, away_from_seam(plate, other),
                        std::vector<std::vector<int>>(cloud.stripes.size())};
   if (!cloud.organised()) return stripes;
+  stripes.bend = plate_bend(cloud, plate, line, stripes.away, scales);
   const auto reach = [&](const Eigen::Vector3d& p) { return stripes.away.dot(p - line.point); };
-  for (auto point = plate.points.begin(); point != plate.points.end();) {
-    const int k = cloud.origins[*point].stripe,
-              end = cloud.stripes[k].first + cloud.stripes[k].count;
+  const auto add = [&](int i, std::vector<int>& run) {
+    if (reach(cloud.points[i]) > scales.tolerance &&
+        std::abs(height_over(stripes, cloud.points[i])) <= scales.tolerance)
+      run.push_back(i);
+  };
+  auto point = plate.points.begin();
+  for (std::size_t k = 0; k < stripes.runs.size(); ++k) {
+    const ScanStripe& stripe = cloud.stripes[k];
+    const int end = stripe.first + stripe.count;
     std::vector<int>& run = stripes.runs[k];
     const auto next = std::lower_bound(point, plate.points.end(), end);
-    run.reserve(static_cast<std::size_t>(next - point));
-    std::copy_if(point, next, std::back_inserter(run), [&](int i) {
-      return reach(cloud.points[i]) > scales.tolerance &&
-             std::abs(plate.plane.signed_distance(cloud.points[i])) <= scales.tolerance;
-    });
-    drop_askew(cloud, plate.plane, scales.noise, run);
+    // A bent plate's own points are those in its plane alone.
+    if (stripes.bend.bent())
+      for (int i = stripe.first; i < end; ++i) add(i, run);
+    else
+      for (auto i = point; i != next; ++i) add(*i, run);
+    drop_askew(cloud, stripes, scales.noise, run);
     point = next;
   }
 
@@ -91,7 +110,7 @@ PlateStripes plate_stripes(const ScanCloud& cloud, const JointPlate& plate, cons
     std::sort(reaches.begin(), reaches.end());
     const ScanStripe& stripe = cloud.stripes[k];
     for (int i = stripe.first; i < stripe.first + stripe.count; ++i)
-      if (const auto through = seen_through(cloud, plate.plane, i, scales.tolerance))
+      if (const auto through = seen_through(cloud, stripes, i, scales.tolerance))
         behind.push_back(reach(*through));
     for (std::size_t j = 1; j < reaches.size(); ++j) {
       const double from = reaches[j - 1], to = reaches[j];

@@ -8,6 +8,7 @@
 #include "services/seam_finding/model/plate.hpp"
 #include "services/seam_finding/model/scales.hpp"
 #include "services/seam_finding/model/scan_cloud.hpp"
+#include "services/seam_finding/visibility/plate_bend.hpp"
 
 namespace arcstart::seam_finding {
 
@@ -19,11 +20,15 @@ struct PlateStripes {
   // the scan; none in a cloud without stripes. What lies in the plate's plane beyond a place where
   // something is seen behind it is another thing of the same height, and left out. So is what runs
   // through the plane at an angle: a reflection, or the cut at the plate's end.
-  std::vector<std::vector<int>> runs;
+  std::vector<std::vector<int>> runs = {};
+  PlateBend bend = {};
   // How far the plate reaches away from the seam: half of the stripes that show it reach so far;
   // mm, 0 where none does.
   double reach = 0;
 };
+
+// Over the plate as it is bent; mm.
+double height_over(const PlateStripes& stripes, const Eigen::Vector3d& point);
 
 // The plates must outlive what is returned.
 PlateStripes plate_stripes(const ScanCloud& cloud, const JointPlate& plate, const JointPlate& other,
@@ -32,8 +37,11 @@ std::array<PlateStripes, 2> plate_stripes(const ScanCloud& cloud,
                                           const std::array<JointPlate, 2>& plates, const Line& line,
                                           const Scales& scales);
 
-// Where the line of sight to a point behind the plate meets the plate's plane; nothing for a point
-// that is not behind it, or that is seen along the plane.
+// Where the line of sight to a point behind the plate meets the plate; nothing for a point that is
+// not behind it, or that is seen along the plate.
+std::optional<Eigen::Vector3d> seen_through(const ScanCloud& cloud, const PlateStripes& stripes,
+                                            int point, double tolerance);
+// The same of a plane.
 std::optional<Eigen::Vector3d> seen_through(const ScanCloud& cloud, const Plane& plane, int point,
                                             double tolerance);
 

@@ -38,7 +38,7 @@ seam_t answer(const synthetic::Scene& scene, const ScanChoice& choice,
   const seam_finding::ScanCloud work = make_scan(scene, choice, number).cloud;
   seam_finding::SeamFindingSettings settings;
   settings.joint_type = joint_type;
-  const seam_finding::SurfaceBackground background(empty, settings.background_distance_mm);
+  const seam_finding::SurfaceBackground background(empty, settings.background_distance());
   seam_t seam = seam_finding::empty_seam();
   SeamResult result = seam_finding::find_seam(work, background, settings, number);
   rule(examine(work, result), result);
@@ -117,9 +117,9 @@ void bench_background(int seeds, nlohmann::json& json) {
         const seam_finding::ScanCloud empty = make_scan(cell, choice, 1000 + number).cloud;
         const auto work = make_scan(scene, choice, number);
         const seam_finding::SeamFindingSettings settings;
-        const seam_finding::SurfaceBackground surface(empty, settings.background_distance_mm);
+        const seam_finding::SurfaceBackground surface(empty, settings.background_distance());
         const seam_finding::NeighbourBackground paper(empty, settings.background_neighbours,
-                                                      settings.background_distance_mm);
+                                                      settings.background_distance());
         const seam_finding::Background* rules[2] = {&surface, &paper};
         for (int i = 0; i < work.cloud.size(); ++i) {
           if (work.truth[i] == synthetic::Truth::kOutlier) continue;

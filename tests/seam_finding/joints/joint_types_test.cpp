@@ -24,7 +24,7 @@ class Scanned {
       : seed_(static_cast<std::uint64_t>(seed)),
         work_(make_scan(scene, scan, seed_).cloud),
         empty_(make_scan(without_boxes(scene), scan, 1000 + seed_).cloud),
-        background_(empty_, SeamFindingSettings{}.background_distance_mm) {}
+        background_(empty_, SeamFindingSettings{}.background_distance()) {}
 
   SeamResult find(const std::string& joint_type) const {
     SeamFindingSettings settings;

@@ -20,7 +20,7 @@ inline SeamResult find(const Scene& scene, const ScanCloud& cloud, const std::st
   const ScanCloud empty = make_scan(cell, with_bends, 1000 + number).cloud;
   SeamFindingSettings settings;
   settings.joint_type = joint_type;
-  return find_seam(cloud, SurfaceBackground(empty, settings.background_distance_mm), settings,
+  return find_seam(cloud, SurfaceBackground(empty, settings.background_distance()), settings,
                    number);
 }
 inline SeamResult find(const Scene& scene, const std::string& joint_type, int seed) {
