@@ -55,26 +55,4 @@ bool occluded_between(const ScanCloud& cloud, const std::array<JointPlate, 2>& p
   return hidden > 0 && (past == 0 || (past == 1 && stripes >= kVisibility.lone_reflection));
 }
 
-bool stands_before(const ScanCloud& cloud, const std::array<JointPlate, 2>& plates,
-                   const Line& line, const Stations& stations, double along, double around) {
-  return std::any_of(stations.list.begin(), stations.list.end(), [&](const Station& station) {
-    return station.stripe >= 0 && std::abs(station.along - along) <= around &&
-           points_before(cloud, plates, line, cloud.stripes[station.stripe]) >= kModel.sure_points;
-  });
-}
-
-bool may_hide(const ScanCloud& cloud, const JointPlate& plate, const JointPlate& other,
-              const Eigen::Vector3d& place) {
-  int hiding = 0;
-  for (const Eigen::Vector3d& point : cloud.points) {
-    const double height = plate.plane.signed_distance(point);
-    if (height <= kVisibility.stands_before ||
-        other.plane.signed_distance(point) <= kVisibility.stands_before)
-      continue;
-    const Eigen::Vector3d beside = point - place - height * plate.plane.normal;
-    hiding += beside.norm() <= kVisibility.hidden_slope * height + kVisibility.hidden_beside;
-  }
-  return hiding >= kModel.sure_points;
-}
-
 }  // namespace arcstart::seam_finding

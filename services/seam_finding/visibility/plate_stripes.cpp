@@ -126,11 +126,4 @@ PlateStripes plate_stripes(const ScanCloud& cloud, const JointPlate& plate, cons
   return stripes;
 }
 
-std::array<PlateStripes, 2> plate_stripes(const ScanCloud& cloud,
-                                          const std::array<JointPlate, 2>& plates, const Line& line,
-                                          const Scales& scales) {
-  return {plate_stripes(cloud, plates[0], plates[1], line, scales),
-          plate_stripes(cloud, plates[1], plates[0], line, scales)};
-}
-
 }  // namespace arcstart::seam_finding

@@ -1,7 +1,6 @@
 // What the stripes of a scan show of one plate of a joint.
 #pragma once
 
-#include <array>
 #include <optional>
 #include <vector>
 
@@ -33,9 +32,6 @@ double height_over(const PlateStripes& stripes, const Eigen::Vector3d& point);
 // The plates must outlive what is returned.
 PlateStripes plate_stripes(const ScanCloud& cloud, const JointPlate& plate, const JointPlate& other,
                            const Line& line, const Scales& scales);
-std::array<PlateStripes, 2> plate_stripes(const ScanCloud& cloud,
-                                          const std::array<JointPlate, 2>& plates, const Line& line,
-                                          const Scales& scales);
 
 // Where the line of sight to a point behind the plate meets the plate; nothing for a point that is
 // not behind it, or that is seen along the plate.
