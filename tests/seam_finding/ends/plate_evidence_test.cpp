@@ -187,6 +187,61 @@ TEST_CASE("a stripe that does not show the plate at the seam says so, and what i
   CHECK(past == 1);
 }
 
+TEST_CASE("where stripes leave a plate over its side is no end of it") {
+  // Of three stripes in five something as high goes on beyond the plate's side, 40 mm away.
+  const Made made = make(2, 0.3, 0, 5);
+  Made beside = made;
+  beside.cloud = {};
+  beside.plate.points.clear();
+  for (std::size_t k = 0; k < made.cloud.stripes.size(); ++k) {
+    const ScanStripe& seen = made.cloud.stripes[k];
+    const auto add = [&](const Eigen::Vector3d& point, const PointOrigin& origin) {
+      beside.plate.points.push_back(beside.cloud.size());
+      beside.cloud.points.push_back(point);
+      beside.cloud.origins.push_back(origin);
+    };
+    for (int i = seen.first; i < seen.first + seen.count; ++i)
+      add(made.cloud.points[i], made.cloud.origins[i]);
+    if (seen.count > 0 && k % 5 < 3)
+      for (double y = 45; y < 60; y += 1.5)
+        add({seen.tool_position.x() - 0.3 * y, y, 0},
+            {static_cast<int>(k), 1, y == 45 || y + 1.5 >= 60, 0, 0.1f});
+    end_stripe(beside.cloud, ScanStripe::Seen::kSeen, seen.camera_centre, seen.tool_position);
+  }
+  for (const StripeEvidence& stripe : toward_begin(beside, 0.15))
+    if (stripe.edge) CHECK(std::abs(stripe.edge->away - 40) > 1.5);
+}
+
+TEST_CASE("dark stripes beside what may hide the plate may be hidden, too") {
+  const Made made = make(30, 0.3, 0, 5);
+  Made hidden = made;
+  hidden.cloud = {};
+  // A block of 8 mm stands before both plates where the plate begins.
+  int added = 0;
+  for (std::size_t k = 0; k < made.cloud.stripes.size(); ++k) {
+    const ScanStripe& seen = made.cloud.stripes[k];
+    for (int i = seen.first; i < seen.first + seen.count; ++i) {
+      hidden.cloud.points.push_back(made.cloud.points[i]);
+      hidden.cloud.origins.push_back(made.cloud.origins[i]);
+    }
+    if (seen.count == 0 && std::abs(seen.tool_position.x() - 26) < 4)
+      for (double y = 4; y < 12; y += 0.5, ++added) {
+        hidden.cloud.points.emplace_back(seen.tool_position.x(), y, 8);
+        hidden.cloud.origins.push_back({static_cast<int>(k), 0, y == 4 || y == 11.5, 0, 0.1f});
+      }
+    end_stripe(hidden.cloud, ScanStripe::Seen::kSeen, seen.camera_centre, seen.tool_position);
+  }
+  for (int& i : hidden.plate.points) i += added;  // all of them lie in later stripes
+  int dark = 0;
+  for (const StripeEvidence& stripe : toward_begin(hidden, 0.15))
+    if (stripe.absent && *stripe.absent > -30) {
+      CHECK(stripe.covered);
+      ++dark;
+    }
+  CHECK(dark > 8);
+  for (const StripeEvidence& stripe : toward_begin(made, 0.15)) CHECK_FALSE(stripe.covered);
+}
+
 TEST_CASE("in a cloud without stripes the stations alone tell") {
   Made made = make(2, 0.3, 0, 5);
   made.cloud = unorganised_cloud(made.cloud.points);
