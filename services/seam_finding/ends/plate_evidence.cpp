@@ -63,7 +63,9 @@ class Collector {
       if (!through) continue;
       const PlacePart place = part(*through);
       if (place.away <= near || place.away >= far_) continue;
-      if (i != last + step || cloud_.origins[i].segment != cloud_.origins[last].segment) close();
+      if (!row.empty() &&
+          (i != last + step || cloud_.origins[i].segment != cloud_.origins[last].segment))
+        close();
       row.push_back(place), last = i;
     }
     close();
