@@ -118,8 +118,10 @@ void bench_background(int seeds, nlohmann::json& json) {
         const auto work = make_scan(scene, choice, number);
         const seam_finding::SeamFindingSettings settings;
         const seam_finding::SurfaceBackground surface(empty, settings.background_distance());
-        const seam_finding::NeighbourBackground paper(empty, settings.background_neighbours,
-                                                      settings.background_distance());
+        seam_finding::SeamFindingSettings as_in_the_paper;
+        as_in_the_paper.background_rule = seam_finding::BackgroundRule::kNeighbours;
+        const seam_finding::NeighbourBackground paper(empty, as_in_the_paper.background_neighbours,
+                                                      as_in_the_paper.background_distance());
         const seam_finding::Background* rules[2] = {&surface, &paper};
         for (int i = 0; i < work.cloud.size(); ++i) {
           if (work.truth[i] == synthetic::Truth::kOutlier) continue;
