@@ -36,6 +36,7 @@ void add_normal(double mean, double deviation, double weight, std::vector<Slope>
 // About a slope that crossings tell, of all slopes alike: close to each other where smooth edges
 // lie, farther apart where rough ones may. deviation: of a smooth edge's slope; density: per slope.
 void add_told(double slope, double deviation, double density, std::vector<Slope>& slopes) {
+  // In deviations; and how much of the slopes each stands for (trapezoidal rule).
   constexpr std::array<double, 9> kPlaces = {-8, -4, -2, -1, 0, 1, 2, 4, 8};
   constexpr std::array<double, 9> kReaches = {4, 3, 1.5, 1, 1, 1, 1.5, 3, 4};
   for (std::size_t i = 0; i < kPlaces.size(); ++i) {
@@ -48,8 +49,8 @@ void add_told(double slope, double deviation, double density, std::vector<Slope>
 
 // The slope that edges through pairs of crossings tell, and how well.
 struct Told {
-  double slope = 0, deviation = 0, foot = 0;
-  double weight = 0;
+  double slope = 0, deviation = 0;
+  double weight = 0;  // of the crossings that tell it; 1/mm2
 };
 
 std::vector<Told> slopes_told(const std::vector<StripeEvidence>& evidence, const PlaceGrid& grid) {
@@ -74,7 +75,7 @@ std::vector<Told> slopes_told(const std::vector<StripeEvidence>& evidence, const
       }
       const double spread = rr - r * r / w;
       const double fitted = (rt - r * t / w) / spread;
-      told.push_back({fitted, 1 / std::sqrt(spread), (t - fitted * r) / w, w});
+      told.push_back({fitted, 1 / std::sqrt(spread), w});
     }
   std::sort(told.begin(), told.end(),
             [](const Told& a, const Told& b) { return a.weight > b.weight; });

@@ -16,7 +16,6 @@ struct Standing {
 
 // What a stripe shows, whichever end is looked for; places along the line.
 struct Seen {
-  const Station* station = nullptr;
   bool shown = false, covered = false;  // the plate at the seam; something before it
   std::vector<Stretch> on, off;
 };
@@ -112,6 +111,8 @@ class Collector {
     if (stripe.count < 2) return 1;
     const double length =
         (cloud_.points[stripe.first + stripe.count - 1] - cloud_.points[stripe.first]).norm();
+    // Its ends may lie at one place.
+    if (!(length > way)) return 1;
     return std::max(1, static_cast<int>(way * stripe.count / length));
   }
 
@@ -120,6 +121,8 @@ class Collector {
   double tolerance_, far_;
 };
 
+// Whether things stand so near the seam at that place along it, for their height, that they may
+// hide the plate there or keep the light from it.
 bool covers(const std::vector<Standing>& standing, double along) {
   return std::count_if(standing.begin(), standing.end(), [&](const Standing& thing) {
            return std::hypot(thing.along - along, thing.away) <=
@@ -198,7 +201,7 @@ std::array<std::vector<StripeEvidence>, 2> plate_evidence(const ScanCloud& cloud
   for (const Station& station : stations.list) {
     if (!station.known) continue;
     const bool at_seam = station.nearest[plate] <= stations.near[plate];
-    Seen seen{&station, at_seam, false, {}, {}};
+    Seen seen{at_seam, false, {}, {}};
     if (station.stripe < 0) {
       if (at_seam) seen.on.push_back({PlacePart{station.along, 0}, PlacePart{station.along, 0}});
     } else {

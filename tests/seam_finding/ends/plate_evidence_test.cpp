@@ -187,6 +187,31 @@ TEST_CASE("a stripe that does not show the plate at the seam says so, and what i
   CHECK(past == 1);
 }
 
+TEST_CASE("a stripe whose ends lie at one place shows what lies behind the plate all the same") {
+  Made made = make(2, 0.3, 0, 5);
+  // Out over the table, and back to within a hundredth of a millimetre of where it began.
+  ScanCloud cloud;
+  for (double way = 0; way <= 60; way += 0.5) {
+    cloud.points.emplace_back(-12.8, 5 + std::min(way, 60.01 - way), -10);
+    cloud.origins.push_back({0, way <= 30 ? 0 : 1, false, 0, 0.1f});
+  }
+  end_stripe(cloud, ScanStripe::Seen::kSeen, {-12.8, 100, 200}, {-12.8, 0, 0});
+  const int added = cloud.size();
+  for (const ScanStripe& seen : made.cloud.stripes) {
+    for (int i = seen.first; i < seen.first + seen.count; ++i) {
+      cloud.points.push_back(made.cloud.points[i]);
+      cloud.origins.push_back(made.cloud.origins[i]);
+      ++cloud.origins.back().stripe;
+    }
+    end_stripe(cloud, ScanStripe::Seen::kSeen, seen.camera_centre, seen.tool_position);
+  }
+  for (int& i : made.plate.points) i += added;
+  made.cloud = cloud;
+  int past = 0;
+  for (const StripeEvidence& stripe : toward_begin(made, 0.15)) past += !stripe.off.empty();
+  CHECK(past == 1);
+}
+
 TEST_CASE("where stripes leave a plate over its side is no end of it") {
   // Of three stripes in five something as high goes on beyond the plate's side, 40 mm away.
   const Made made = make(2, 0.3, 0, 5);
