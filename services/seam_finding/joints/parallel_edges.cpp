@@ -7,20 +7,17 @@
 
 #include "services/seam_finding/gaps/butt_gap.hpp"
 #include "services/seam_finding/joints/constants.hpp"
+#include "services/seam_finding/joints/edges/plate_end_place.hpp"
 
 namespace arcstart::seam_finding {
 namespace {
-
-int neighbour(const Transition& transition, int plate) {
-  return plate == 0 ? transition.last : transition.first;
-}
 
 // The points that follow on a plate's last one in the same segment, outward, as long as they fall
 // as a cut does: what is flatter lies below the gap.
 std::vector<int> falling(const ScanCloud& cloud, const Transition& transition,
                          const PlateFrame& frame, const Plane& plane, int plate, double near_mm) {
   std::vector<int> run;
-  int before = neighbour(transition, plate);
+  int before = last_on_plate(transition, plate);
   double height = plane.signed_distance(cloud.points[before]);
   const auto take = [&](int i) {
     const double h = plane.signed_distance(cloud.points[i]);
@@ -42,37 +39,11 @@ std::vector<int> falling(const ScanCloud& cloud, const Transition& transition,
   return run;
 }
 
-// What follows on a plate's last point, outward; -1 where it lies in another segment.
-int follower(const ScanCloud& cloud, const Transition& transition, int plate) {
-  const int own = neighbour(transition, plate);
-  int next = neighbour(transition, 1 - plate);
-  if (!transition.between.empty())
-    next = plate == 0 ? transition.between.front() : transition.between.back();
-  const bool joined =
-      cloud.organised() && cloud.origins[next].segment == cloud.origins[own].segment;
-  return joined ? next : -1;
-}
-
-// Where the plate ends by its last point alone: at a segment's end, or before what follows on it.
-LinePlace end_place(const ScanCloud& cloud, const Transition& transition, const PlateFrame& frame,
-                    int plate, int next, double pitch_mm) {
-  const int own = neighbour(transition, plate);
-  const Eigen::Vector3d p = frame.of(cloud.points[own]);
-  const double outward = plate == 0 ? 1 : -1;
-  LinePlace place{p.x(), p.y(), 0, kJoints.jump_deviation};
-  if (cloud.origins[own].segment_end) return place;
-  double step = pitch_mm;
-  if (next >= 0) step = std::abs(frame.of(cloud.points[next]).y() - p.y());
-  place.across += outward * step / 2;
-  place.deviation = std::max(kJoints.cut_deviation, step / std::sqrt(12.0));
-  return place;
-}
-
 // Where the light ends at the other plate's edge and goes on down on this one's cut, seen past that
 // edge: the end of the piece that leads up to this plate; -1 where it is not so.
 int end_on_cut(const ScanCloud& cloud, const Transition& transition, const Plane& plane, int plate,
                double near_mm) {
-  const int own = neighbour(transition, plate), other = neighbour(transition, 1 - plate);
+  const int own = last_on_plate(transition, plate), other = last_on_plate(transition, 1 - plate);
   if (!cloud.organised() || transition.between.empty()) return -1;
   const int end = plate == 0 ? transition.between.back() : transition.between.front();
   const PointOrigin& origin = cloud.origins[end];
@@ -188,20 +159,6 @@ std::optional<std::array<LineFit, 2>> butt_edges(const ScanCloud& cloud,
   return fit_butt_gap(places, search);
 }
 
-// The points of a stripe on a cut lie above each other, but for its lean and the noise.
-bool is_steep(const std::vector<LinePlace>& cut, double near_mm) {
-  const auto [left, right] = std::minmax_element(
-      cut.begin(), cut.end(),
-      [](const LinePlace& a, const LinePlace& b) { return a.across < b.across; });
-  const auto [low, high] = std::minmax_element(
-      cut.begin(), cut.end(),
-      [](const LinePlace& a, const LinePlace& b) { return a.height < b.height; });
-  const double noise = std::hypot(kJoints.cut_deviation, near_mm / kFit.on_plane);
-  return right->across - left->across <
-         kFit.outlier *
-             (kJoints.square_cut * (high->height - low->height) + std::sqrt(2.0) * noise);
-}
-
 }  // namespace
 
 bool sees_below(const ScanCloud& cloud, const Transition& transition,
@@ -285,49 +242,6 @@ ParallelEdges edges_of(const ScanCloud& cloud, const std::vector<Transition>& tr
   borders.plates = {(*narrow)[0], (*narrow)[1]};
   borders.together = true;
   return borders;
-}
-
-std::optional<LapRoot> lap_root(const ScanCloud& cloud, const std::vector<Transition>& transitions,
-                                const PlateFrame& frame, const std::array<Plane, 2>& planes,
-                                int upper, double step_mm, double near_mm, double pitch_mm) {
-  std::vector<LinePlace> places;
-  std::size_t on_cut = 0;
-  const Plane& lower = planes[1 - upper];
-  const double outward = upper == 0 ? 1 : -1;  // of the cut, across
-  const auto faces_away = [&](int i) {
-    return outward * frame.across.dot(cloud.seen_from(i) - cloud.points[i]) < 0;
-  };
-  const bool away = 2 * std::count_if(transitions.begin(), transitions.end(),
-                                      [&](const auto& t) { return faces_away(t.last); }) >
-                    std::ssize(transitions);
-  for (const Transition& transition : transitions) {
-    std::vector<LinePlace> cut;
-    for (const int i : transition.between) {
-      const double height = lower.signed_distance(cloud.points[i]);
-      // A cut that faces away from the camera is not seen: what lies between is the step's
-      // rounding.
-      if (faces_away(i)) continue;
-      if (height < kJoints.off_plate * near_mm || height > step_mm - kJoints.off_plate * near_mm ||
-          cloud.origins[i].segment_end)
-        continue;
-      const Eigen::Vector3d p = frame.of(cloud.points[i]);
-      cut.push_back({p.x(), p.y(), height, kJoints.cut_deviation});
-    }
-    if (!cut.empty()) {
-      // A fillet's bead slants, and hides the edge.
-      if (!is_steep(cut, near_mm)) continue;
-      places.insert(places.end(), cut.begin(), cut.end()), on_cut += cut.size();
-      continue;
-    }
-    // What follows on the upper plate's last point belongs to its cut or, in a thin plate's scan,
-    // to the lower plate.
-    places.push_back(
-        end_place(cloud, transition, frame, upper, follower(cloud, transition, upper), pitch_mm));
-    places.back().height = step_mm;
-  }
-  const auto fit = fit_line(places, kJoints.square_cut);
-  if (!fit) return std::nullopt;
-  return LapRoot{*fit, on_cut >= kJoints.cut_points, away};
 }
 
 }  // namespace arcstart::seam_finding

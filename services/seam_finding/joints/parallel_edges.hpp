@@ -34,15 +34,4 @@ ParallelEdges edges_of(const ScanCloud& cloud, const std::vector<Transition>& tr
 bool sees_below(const ScanCloud& cloud, const Transition& transition,
                 const std::array<Plane, 2>& planes, double near_mm);
 
-// Of a lap: the foot of the upper plate's cut on the lower plate, or where the cut was not seen the
-// upper plate's end, brought down along the normal. In the lower plate's plane.
-struct LapRoot {
-  LineFit fit;
-  bool seen = false;        // of the cut
-  bool faces_away = false;  // from the camera
-};
-std::optional<LapRoot> lap_root(const ScanCloud& cloud, const std::vector<Transition>& transitions,
-                                const PlateFrame& frame, const std::array<Plane, 2>& planes,
-                                int upper, double step_mm, double near_mm, double pitch_mm);
-
 }  // namespace arcstart::seam_finding

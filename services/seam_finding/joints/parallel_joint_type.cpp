@@ -5,6 +5,7 @@
 
 #include "services/seam_finding/fit/order_statistics.hpp"
 #include "services/seam_finding/joints/constants.hpp"
+#include "services/seam_finding/joints/edges/lap_root.hpp"
 #include "services/seam_finding/joints/parallel_edges.hpp"
 
 namespace arcstart::seam_finding {

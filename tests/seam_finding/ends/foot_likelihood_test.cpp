@@ -4,7 +4,7 @@
 #include <cmath>
 #include <random>
 
-#include "tests/seam_finding/support/end_modes.hpp"
+#include "tests/seam_finding/support/likelihood_moments.hpp"
 
 using namespace arcstart::seam_finding;
 

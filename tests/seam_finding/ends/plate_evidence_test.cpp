@@ -5,7 +5,7 @@
 #include <random>
 
 #include "services/seam_finding/coverage/stations.hpp"
-#include "tests/seam_finding/support/end_modes.hpp"
+#include "tests/seam_finding/support/likelihood_moments.hpp"
 #include "tests/seam_finding/support/scales.hpp"
 
 using namespace arcstart;
@@ -153,11 +153,11 @@ TEST_CASE("an edge cut at a slant is found by what falls over it") {
   }
 }
 
-TEST_CASE("a stripe that does not show the plate at the seam says so, and what it sees behind it") {
-  Made made = make(2, 0.3, 0, 5);
-  // The table under the plate, as seen from above, in a stripe before its begin.
-  const int stripe = 2;  // crosses the seam at -12.8
-  REQUIRE(made.cloud.stripes[stripe].count == 0);
+// The same, and points of the table under the plate, seen from above, in a stripe before its begin:
+// it crosses the seam at -12.8; from 5 mm away to `reach`.
+Made with_table(Made made, double reach) {
+  constexpr int kStripe = 2;
+  REQUIRE(made.cloud.stripes[kStripe].count == 0);
   ScanCloud cloud;
   for (std::size_t k = 0; k < made.cloud.stripes.size(); ++k) {
     const ScanStripe& seen = made.cloud.stripes[k];
@@ -165,18 +165,22 @@ TEST_CASE("a stripe that does not show the plate at the seam says so, and what i
       cloud.points.push_back(made.cloud.points[i]);
       cloud.origins.push_back(made.cloud.origins[i]);
     }
-    if (k == stripe)
-      for (double y = 5; y < 35; y += 0.5) {
+    if (k == kStripe)
+      for (double y = 5; y < reach; y += 0.5) {
         cloud.points.emplace_back(-12.8, y, -10);
-        cloud.origins.push_back({stripe, 0, y == 5 || y == 34.5, 0, 0.1f});
+        cloud.origins.push_back({kStripe, 0, y == 5 || y + 0.5 >= reach, 0, 0.1f});
       }
     end_stripe(cloud, ScanStripe::Seen::kSeen, seen.camera_centre, seen.tool_position);
   }
   const int added = cloud.size() - made.cloud.size();
   for (int& i : made.plate.points) i += added;  // all of them lie in later stripes
   made.cloud = cloud;
+  return made;
+}
+
+TEST_CASE("a stripe that does not show the plate at the seam says so, and what it sees behind it") {
   int past = 0;
-  for (const StripeEvidence& one : toward_begin(made, 0.15)) {
+  for (const StripeEvidence& one : toward_begin(with_table(make(2, 0.3, 0, 5), 35), 0.15)) {
     if (one.off.empty()) continue;
     ++past;
     CHECK(one.absent);
@@ -185,6 +189,11 @@ TEST_CASE("a stripe that does not show the plate at the seam says so, and what i
     CHECK(-one.off[0][0].out > -13.5);
   }
   CHECK(past == 1);
+}
+
+TEST_CASE("two points behind a plate tell nothing") {
+  for (const StripeEvidence& one : toward_begin(with_table(make(2, 0.3, 0, 5), 6), 0.15))
+    CHECK(one.off.empty());
 }
 
 TEST_CASE("a stripe whose ends lie at one place shows what lies behind the plate all the same") {
