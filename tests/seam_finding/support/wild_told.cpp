@@ -19,7 +19,8 @@ constexpr std::uint64_t calibration_purpose = 31, wave_purpose = 32;  // of the 
 TrueSensor told_sensor(const WildScene& wild, const TrueSensor& sensor) {
   const double factor = wild.scan.calibration_error;
   if (factor == 0) return sensor;
-  // Of a calibration from 20 poses of a robot that errs by 0.1 mm and 0.01 deg: README, "How good".
+  // Of a calibration from 20 poses of a robot that errs by 0.1 mm and 0.01 deg: figures of
+  // services/calibration/BENCHMARK.md.
   constexpr double focal_share = 1e-4, sheet_mm = 0.05, hand_eye_mm = 0.05;
   constexpr double sheet_rad = 0.01 * kDegree, hand_eye_rad = 0.005 * kDegree;
   RandomStream random(wild.seed, calibration_purpose);
