@@ -81,27 +81,6 @@ std::vector<int> grown_along_stripes(const ScanCloud& cloud, const JointPlate& p
   return grown;
 }
 
-// The plate's plane by the points chosen. Of more than a sample, by means over so many neighbours
-// in a stripe that they are as few as one; points of no stripe have no neighbours.
-Plane fitted(const ScanCloud& cloud, const Joint& joint, int plate, const std::vector<int>& chosen,
-             double noise) {
-  const Plane& plane = joint.plates[plate].plane;
-  if (chosen.size() < kFit.plane_points) return plane;  // the face's own is better
-  std::vector<Eigen::Vector3d> points;
-  const std::size_t together = 1 + chosen.size() / kCloud.sample;
-  points.reserve(chosen.size() / together + cloud.stripes.size() + 1);
-  for (std::size_t first = 0, last = 0; first < chosen.size(); first = last) {
-    const int stripe = cloud.origins[chosen[first]].stripe;
-    Eigen::Vector3d sum = cloud.points[chosen[first]];
-    for (last = first + 1; stripe >= 0 && last < std::min(first + together, chosen.size()) &&
-                           cloud.origins[chosen[last]].stripe == stripe;
-         ++last)
-      sum += cloud.points[chosen[last]];
-    points.push_back(sum / static_cast<double>(last - first));
-  }
-  return robust_plane(points, joint.line, plane, noise);
-}
-
 // False where the planes do not cross.
 bool set_planes(const ScanCloud& cloud, Joint& joint, const std::array<Plane, 2>& planes,
                 const Scales& scales) {
@@ -137,8 +116,8 @@ Joint refined(const ScanCloud& cloud, Joint joint, const RefinementPasses& passe
             difference(chosen, without_outliers(cloud, chosen, settings.outlier_neighbours,
                                                 settings.outlier_deviations,
                                                 outlier_spacing(cloud, chosen, scales.spacing)));
-      planes[plate] =
-          fitted(cloud, joint, plate, difference(chosen, outliers[plate]), scales.noise);
+      planes[plate] = robust_plane(cloud, difference(chosen, outliers[plate]), joint.line,
+                                   joint.plates[plate].plane, scales.noise);
     }
     if (!set_planes(cloud, joint, planes, scales)) break;
   }

@@ -6,9 +6,9 @@
 
 #include "services/seam_finding/coverage/coverage.hpp"
 #include "services/seam_finding/coverage/parallel_stations.hpp"
-#include "services/seam_finding/fit/plane_fit.hpp"
 #include "services/seam_finding/joints/constants.hpp"
 #include "services/seam_finding/joints/parallel_joint_type.hpp"
+#include "services/seam_finding/planes/robust_plane.hpp"
 
 namespace arcstart::seam_finding {
 namespace {
@@ -33,29 +33,27 @@ void keep_own_height(const ScanCloud& cloud, double near_mm, std::array<JointPla
 
 // A plate's points on its own side of its border, and the plane through those near it.
 JointPlate plate_of(const ScanCloud& cloud, const TransitionLine& candidate, const Face& face,
-                    int plate, double across_of_line, double slope, double contact) {
+                    int plate, const LineFit& border, const Scales& scales) {
   const double outward = plate == 0 ? -1 : 1;
   JointPlate result;
-  result.contact = contact;
+  result.contact = scales.contact;
   result.away = outward * candidate.frame.across;
-  PlaneSums sums(candidate.frame.origin);
+  std::vector<int> flat;
   const auto [first, last] = sections_of(candidate.transitions);
   for (const int i : face.points) {
     const Eigen::Vector3d p = candidate.frame.of(cloud.points[i]);
-    const double away = outward * (p.y() - across_of_line - slope * p.x());
+    const double away = outward * (p.y() - border.across_at(p.x()));
     if (away < 0) continue;
     result.points.push_back(i);
     // Beyond the seam's ends another plate may lie on this side.
     const int stripe = cloud.origins[i].stripe;
     if (candidate.by_runs && (stripe < first || stripe > last)) continue;
-    if (away < kPlanes.fit_reach && !cloud.origins[i].segment_end) sums.add(cloud.points[i]);
+    if (away < kPlanes.fit_reach && !cloud.origins[i].segment_end) flat.push_back(i);
   }
-  result.plane = face.plane;
-  if (sums.weight() >= 20) {
-    const auto fit = sums.fit();
-    if (fit.spread[0] > 1)
-      result.plane = fit.plane.normal.dot(face.plane.normal) < 0 ? fit.plane.flipped() : fit.plane;
-  }
+  // A stripe's turn at either edge is rounded: there it lies off the plane.
+  const Line along{candidate.frame.origin + border.across_at(0) * candidate.frame.across,
+                   (candidate.frame.along + border.slope * candidate.frame.across).normalized()};
+  result.plane = robust_plane(cloud, flat, along, face.plane, scales.noise);
   result.points = without_fragments(cloud, result.points);
   return result;
 }
@@ -157,8 +155,7 @@ std::optional<Joint> joint_at(const ScanCloud& cloud, const std::vector<Face>& f
   Joint joint;
   joint.faces = candidate.faces;
   for (int j = 0; j < 2; ++j)
-    joint.plates[j] = plate_of(cloud, candidate, faces[candidate.faces[j]], j, rough->across_at(0),
-                               rough->slope, scales.contact);
+    joint.plates[j] = plate_of(cloud, candidate, faces[candidate.faces[j]], j, *rough, scales);
   if (joint.faces[0] == joint.faces[1]) keep_own_height(cloud, near_plate(scales), joint.plates);
   if (joint.plates[0].points.empty() || joint.plates[1].points.empty()) return std::nullopt;
   if (!set_type(cloud, candidate, scales, settings, joint)) return std::nullopt;

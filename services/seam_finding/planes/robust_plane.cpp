@@ -183,4 +183,22 @@ Plane robust_plane(const std::vector<Eigen::Vector3d>& points, const Line& line,
   return heights.plane(model);
 }
 
+Plane robust_plane(const ScanCloud& cloud, const std::vector<int>& chosen, const Line& line,
+                   const Plane& plane, double noise) {
+  if (chosen.size() < kFit.plane_points) return plane;
+  std::vector<Eigen::Vector3d> points;
+  const std::size_t together = 1 + chosen.size() / kCloud.sample;
+  points.reserve(chosen.size() / together + cloud.stripes.size() + 1);
+  for (std::size_t first = 0, last = 0; first < chosen.size(); first = last) {
+    const int stripe = cloud.origins[chosen[first]].stripe;
+    Eigen::Vector3d sum = cloud.points[chosen[first]];
+    for (last = first + 1; stripe >= 0 && last < std::min(first + together, chosen.size()) &&
+                           cloud.origins[chosen[last]].stripe == stripe;
+         ++last)
+      sum += cloud.points[chosen[last]];
+    points.push_back(sum / static_cast<double>(last - first));
+  }
+  return robust_plane(points, line, plane, noise);
+}
+
 }  // namespace arcstart::seam_finding

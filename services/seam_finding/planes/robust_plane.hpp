@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "common/geometry.hpp"
+#include "services/seam_finding/model/scan_cloud.hpp"
 
 namespace arcstart::seam_finding {
 
@@ -15,5 +16,10 @@ namespace arcstart::seam_finding {
 // determine none.
 Plane robust_plane(const std::vector<Eigen::Vector3d>& points, const Line& line, const Plane& plane,
                    double noise);
+
+// The same by the points chosen. Of more than a sample, by means over so many neighbours in a
+// stripe that they are as few as one; points of no stripe have no neighbours.
+Plane robust_plane(const ScanCloud& cloud, const std::vector<int>& chosen, const Line& line,
+                   const Plane& plane, double noise);
 
 }  // namespace arcstart::seam_finding

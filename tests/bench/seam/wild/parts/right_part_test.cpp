@@ -1,6 +1,8 @@
 // What is asked for lies there, in a shape or a place that is easily refused.
 #include <catch2/catch.hpp>
+#include <cmath>
 
+#include "common/geometry.hpp"
 #include "paths.hpp"
 #include "tests/bench/seam/wild/judgement.hpp"
 #include "tests/bench/seam/wild/scene_file.hpp"
@@ -62,4 +64,20 @@ TEST_CASE("a hollow section on a plate is a tee, however round its edges are") {
   INFO("radius " << upright.corner_radius_mm << " mm, gap " << scene.works[0].gap_begin_mm
                  << " mm");
   check_answered(scene);
+}
+
+// A stripe is rounded where it turns at a plate's edges, and just there all its points are kept.
+TEST_CASE("what a stripe shows at the edges of plates side by side does not tilt them") {
+  WildScene scene = bare_tee();
+  scene.works[0].joint = scene.asked = GENERATE("lap", "butt", "v");
+  scene.works[0].second.thickness_mm = scene.asked == "lap" ? 3 : 10;
+  scene.works[0].gap_begin_mm = scene.works[0].gap_end_mm = scene.asked == "lap" ? 0 : 1;
+  const WildCase wild(scene);
+  const seam_t seam = wild.answer(true);
+  INFO(scene.asked << " refused with " << seam.refusal << ": " << seam.reason);
+  REQUIRE(seam.verdict == seam_t::FOUND);
+  const auto& truth = wild.truth().seams.at(0);
+  for (int j = 0; j < 2; ++j)
+    CHECK(angle_between(Eigen::Vector3d(seam.normals[j]), truth.normals[j]) < 0.03 * kDegree);
+  CHECK(std::abs(judge(seam, wild.truth()).start.height) < 0.02);
 }
