@@ -10,6 +10,7 @@
 #include <nlohmann/json.hpp>
 #include <sstream>
 
+#include "paths.hpp"
 #include "tests/command_line/support/synthetic_recording.hpp"
 
 using namespace arcstart;
@@ -24,16 +25,17 @@ struct Outcome {
   std::string out, err;
 };
 
-Outcome run(const Folder& folder, const std::string& arguments) {
+Outcome run(const Folder& folder, const std::string& arguments, const std::string& out = "out") {
   const auto text_of = [&](const std::string& name) {
     std::ostringstream text;
     text << std::ifstream(folder / name).rdbuf();
     return text.str();
   };
   const std::string command =
-      "cd " + folder.path() + " && " ARCSTART_PROGRAM " " + arguments + " >out 2>err";
+      "cd " + folder.path() + " && " ARCSTART_PROGRAM " " + arguments + " >" + out + " 2>err";
   const int status = std::system(command.c_str());
-  return {WIFEXITED(status) ? WEXITSTATUS(status) : -1, text_of("out"), text_of("err")};
+  return {WIFEXITED(status) ? WEXITSTATUS(status) : -1, out == "out" ? text_of(out) : "",
+          text_of("err")};
 }
 
 std::size_t lines(const std::string& text) {
@@ -41,6 +43,16 @@ std::size_t lines(const std::string& text) {
 }
 
 }  // namespace
+
+TEST_CASE("what cannot be printed is an error, not a result") {
+  const Folder folder;
+  for (const std::string arguments : {"--help", "replay --json " ARCSTART_SOURCE "/logs/lap.lcm"}) {
+    INFO(arguments);
+    const Outcome full = run(folder, arguments, "/dev/full");
+    CHECK(full.code == 2);
+    CHECK_THAT(full.err, Contains("standard output cannot be written: No space left on device"));
+  }
+}
 
 TEST_CASE("arcstart and each subcommand tell all of themselves") {
   const Folder folder;
