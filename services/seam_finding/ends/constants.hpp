@@ -32,8 +32,6 @@ struct EndConstants {
   double least_turn = 0.2;
   // mm; over such a way the noise of points leaves a direction known - bench.
   double direction_base = 3;
-  // Steps that show the usual one - bench.
-  std::size_t step_sample = 64;
   // Of a stripe, mm along the seam for each mm of its length, at least - bench.
   double least_slant = 0.05;
 

@@ -4,7 +4,6 @@
 #include <cmath>
 
 #include "services/seam_finding/ends/constants.hpp"
-#include "services/seam_finding/fit/order_statistics.hpp"
 
 namespace arcstart::seam_finding {
 namespace {
@@ -17,14 +16,6 @@ Eigen::Vector3d direction_at_end(const ScanCloud& cloud, const std::vector<int>&
   for (std::size_t i = 1; i < run.size() && way.norm() < kEnds.direction_base; ++i)
     way = last - cloud.points[at_back ? run[run.size() - 1 - i] : run[i]];
   return way.norm() > 1e-6 ? way.normalized() : way;
-}
-
-// The usual way between the points that are left of a stripe.
-double thinned_step(const ScanCloud& cloud, const std::vector<int>& run) {
-  std::vector<double> steps;
-  for (std::size_t i = 1; i < run.size(); i += 1 + run.size() / kEnds.step_sample)
-    steps.push_back((cloud.points[run[i]] - cloud.points[run[i - 1]]).norm());
-  return median(steps);
 }
 
 // Where along the seam the cut is over whose edge the stripe turns, from its next points: a cut is
@@ -54,14 +45,12 @@ std::optional<double> cut_beyond(const ScanCloud& cloud, const JointPlate& plate
 
 // Where the light at a segment's end lies. Of a stripe that is cut off at a slant the last of the
 // light lies beside the laser's plane, but on the plate it does lie: where the line of sight meets
-// it.
-std::optional<Eigen::Vector3d> on_plate(const ScanCloud& cloud, const PlateStripes& stripes,
-                                        int i) {
-  const Eigen::Vector3d& eye = cloud.seen_from(i);
-  const Eigen::Vector3d sight = cloud.points[i] - eye;
-  const double toward = -stripes.plate.plane.normal.dot(sight.normalized());
-  if (toward < kVisibility.least_sight) return std::nullopt;
-  return cloud.points[i] + sight.normalized() * (height_over(stripes, cloud.points[i]) / toward);
+// it, unless it runs along the plate.
+Eigen::Vector3d on_plate(const ScanCloud& cloud, const PlateStripes& stripes, int i) {
+  const Eigen::Vector3d sight = (cloud.points[i] - cloud.seen_from(i)).normalized();
+  const double toward = -stripes.plate.plane.normal.dot(sight);
+  if (toward < kVisibility.least_sight) return cloud.points[i];
+  return cloud.points[i] + sight * (height_over(stripes, cloud.points[i]) / toward);
 }
 
 // Way along the seam that shifts an edge square to it by a pixel in the image; mm. A pixel is known
@@ -81,14 +70,11 @@ double pixel_along(const ScanCloud& cloud, int end, int next, const Line& line,
 }  // namespace
 
 std::optional<EdgeCrossing> edge_crossing(const ScanCloud& cloud, const std::vector<int>& run,
-                                          const PlateStripes& stripes, SeamSide side,
-                                          const Scales& scales,
-                                          const SeamFindingSettings& settings) {
+                                          const PlateStripes& stripes, bool at_back,
+                                          const Scales& scales) {
   if (run.size() < 3) return std::nullopt;
   const JointPlate& plate = stripes.plate;
   const Line& line = stripes.line;
-  const bool rising = line.along(cloud.points[run.back()]) > line.along(cloud.points[run.front()]);
-  const bool at_back = rising == (side == SeamSide::kEnd);
   const int last = at_back ? run.back() : run.front();
   const int beyond = at_back ? last + 1 : last - 1;
   const ScanStripe& stripe = cloud.stripes[cloud.origins[last].stripe];
@@ -102,39 +88,35 @@ std::optional<EdgeCrossing> edge_crossing(const ScanCloud& cloud, const std::vec
     return std::nullopt;
 
   const Eigen::Vector3d direction = direction_at_end(cloud, run, at_back);
-  const double slant = std::abs(direction.dot(line.direction));
-  if (slant < kEnds.least_slant) return std::nullopt;
-  const double outward = side == SeamSide::kEnd ? 1 : -1;
   EdgeCrossing place;
+  place.way_along = direction.dot(line.direction), place.way_away = direction.dot(stripes.away);
   if (cloud.origins[last].segment_end) {
     // Known to a centre.
-    const auto point = on_plate(cloud, stripes, last);
-    if (!point) return std::nullopt;
+    const Eigen::Vector3d point = on_plate(cloud, stripes, last);
     const int inner = at_back ? run[run.size() - 2] : run[1];
     place.pixel = pixel_along(cloud, last, inner, line, stripes.away);
-    place.along = line.along(*point) + outward * settings.edge_shortening_px * place.pixel;
-    place.away = stripes.away.dot(*point - line.point);
-    const double end =
-        kEnds.light_deviation + kEnds.flat_deviation * std::max(0.0, kEnds.flat_crossing - slant);
-    place.deviation = std::hypot(end * place.pixel, kVisibility.beam * scales.noise);
+    if (place.pixel == 0) return std::nullopt;
+    place.along = line.along(point);
+    place.away = stripes.away.dot(point - line.point);
+    place.deviation = kVisibility.beam * scales.noise;
     place.sharp = true;
   } else {
     // A segment that runs on turns at the plate's edge into the cut, if the cut is in sight; else
     // the plate ends between two of the points that are left.
-    const double step = thinned_step(cloud, run);
+    if (!joined) return std::nullopt;
     const auto cut = cut_beyond(cloud, plate, line, last, at_back, scales);
-    const Eigen::Vector3d point = cloud.points[last] + 0.5 * step * direction;
+    const Eigen::Vector3d way = cloud.points[beyond] - cloud.points[last];
+    const Eigen::Vector3d between = way - plate.plane.normal.dot(way) * plate.plane.normal;
+    const Eigen::Vector3d point = cloud.points[last] + 0.5 * between;
     place.along = cut ? *cut : line.along(point);
     place.away = stripes.away.dot(point - line.point);
     if (cut) {
       place.deviation = std::hypot(kEnds.cut_noise, kVisibility.beam * scales.noise);
     } else {
       // Where the stripe leaves the plane gently, the plate is bent.
-      if (joined && std::abs(height_over(stripes, cloud.points[beyond])) <
-                        kEnds.least_turn * (cloud.points[beyond] - cloud.points[last]).norm())
+      if (std::abs(height_over(stripes, cloud.points[beyond])) < kEnds.least_turn * way.norm())
         return std::nullopt;
-      place.deviation = slant * step / std::sqrt(12.0);
-      place.deviation_away = direction.dot(stripes.away) * step / std::sqrt(12.0);
+      place.spread = between.norm() / std::sqrt(12.0);
     }
     place.sharp = cut.has_value();
   }

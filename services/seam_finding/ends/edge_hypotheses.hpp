@@ -30,6 +30,11 @@ struct Slope {
 std::vector<Slope> slopes_of(const std::vector<StripeEvidence>& evidence, const PlaceGrid& grid,
                              double edge_slope);
 
+// How far a stripe comes outward of an edge at a slope, along the seam, for each mm that it goes on
+// behind the crossing. Where that is less than `kEnds.least_slant` it does not leave the plate over
+// such an edge there, or runs along it.
+double leaving(const EdgeCrossing& edge, double slope);
+
 // Of the foot of an edge at a slope through one crossing; mm2.
 double variance_of(const EdgeCrossing& edge, double slope, double roughness);
 

@@ -72,8 +72,8 @@ std::vector<StripeEvidence> between(const std::vector<StripeEvidence>& evidence,
       if (const auto piece = clipped(on, from, to)) part.on.push_back(*piece);
     for (const Stretch& off : stripe.off)
       if (const auto piece = clipped(off, from, to)) part.off.push_back(*piece);
-    if (stripe.edge && stripe.edge->away >= from && stripe.edge->away <= to)
-      part.edge = stripe.edge;
+    for (const EdgeCrossing& edge : stripe.edges)
+      if (edge.away >= from && edge.away <= to) part.edges.push_back(edge);
     if (from <= 0) part.absent = stripe.absent;
     parts.push_back(std::move(part));
   }
@@ -90,8 +90,8 @@ void add_coped(const std::vector<StripeEvidence>& evidence, const std::vector<do
   const auto reach = static_cast<std::size_t>(kEnds.cope_most / grid.step);
   double prior = std::log(kEnds.coped_share / kEnds.cope_most * grid.step) + far.scale;
   for (const StripeEvidence& stripe : evidence)
-    if (stripe.edge && !stripe.edge->occluded && stripe.edge->away < kEnds.cope_most)
-      prior -= std::log(kEnds.way_seen);
+    for (const EdgeCrossing& edge : stripe.edges)
+      if (!edge.occluded && edge.away < kEnds.cope_most) prior -= std::log(kEnds.way_seen);
   std::vector<double> coped(near.size());
   double sum = 0, scale = likelihood.scale;
   for (std::size_t i = near.size(); i-- > 0;) {
