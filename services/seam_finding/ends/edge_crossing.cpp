@@ -18,29 +18,33 @@ Eigen::Vector3d direction_at_end(const ScanCloud& cloud, const std::vector<int>&
   return way.norm() > 1e-6 ? way.normalized() : way;
 }
 
-// Where along the seam the cut is over whose edge the stripe turns, from its next points: a cut is
-// square to the plate, so that what lies on it lies at the edge.
-std::optional<double> cut_beyond(const ScanCloud& cloud, const JointPlate& plate, const Line& line,
-                                 int last, bool at_back, const Scales& scales) {
-  const int step = at_back ? 1 : -1;
-  double sum = 0, first_along = 0, first_depth = 0;
-  for (int k = 1; k <= kEnds.most_on_cut; ++k) {
-    const int i = last + k * step;
+// The edge over which a stripe turns: what it shows next lies on one straight piece, a cut or a
+// chamfer, that begins at the plate.
+struct Turn {
+  Eigen::Vector3d place;
+  double longer;  // its deviation over that of a point
+};
+std::optional<Turn> turn_beyond(const ScanCloud& cloud, const PlateStripes& stripes, int last,
+                                bool at_back, double noise) {
+  const int step = at_back ? 1 : -1, next = last + step;
+  const Eigen::Vector3d& first = cloud.points[next];
+  const double depth = -height_over(stripes, first);
+  std::optional<Turn> turn;
+  for (int k = 1; k < kEnds.most_on_cut; ++k) {
+    const int i = next + k * step;
     if (i < 0 || i >= cloud.size() || cloud.origins[i].stripe != cloud.origins[last].stripe ||
         cloud.origins[i].segment != cloud.origins[last].segment)
       break;
-    const double along = line.along(cloud.points[i]);
-    const double depth = -plate.plane.signed_distance(cloud.points[i]);
-    if (k == 1) first_along = along, first_depth = depth;
-    sum += along;
-    const double drop = depth - first_depth;
-    if (drop < kEnds.least_drop) continue;
-    if (std::abs(along - first_along) >
-        kEnds.cut_slant * drop + kFit.outlier * kVisibility.beam * scales.noise)
-      break;
-    return sum / k;
+    const Eigen::Vector3d way = cloud.points[i] - first;
+    for (int j = next + step; j != i; j += step)
+      if ((cloud.points[j] - first).cross(way.normalized()).norm() > kFit.outlier * noise)
+        return turn;
+    const double drop = -height_over(stripes, cloud.points[i]) - depth;
+    if (drop * depth <= 0 || std::abs(drop) < kEnds.least_drop) continue;
+    const double back = depth / drop;
+    turn = Turn{first - back * way, std::hypot(1 + back, back)};
   }
-  return std::nullopt;
+  return turn;
 }
 
 // Where the light at a segment's end lies. Of a stripe that is cut off at a slant the last of the
@@ -90,35 +94,33 @@ std::optional<EdgeCrossing> edge_crossing(const ScanCloud& cloud, const std::vec
   const Eigen::Vector3d direction = direction_at_end(cloud, run, at_back);
   EdgeCrossing place;
   place.way_along = direction.dot(line.direction), place.way_away = direction.dot(stripes.away);
+  const int inner = at_back ? run[run.size() - 2] : run[1];
+  place.pixel = pixel_along(cloud, last, inner, line, stripes.away);
+  if (place.pixel == 0) return std::nullopt;
   if (cloud.origins[last].segment_end) {
     // Known to a centre.
     const Eigen::Vector3d point = on_plate(cloud, stripes, last);
-    const int inner = at_back ? run[run.size() - 2] : run[1];
-    place.pixel = pixel_along(cloud, last, inner, line, stripes.away);
-    if (place.pixel == 0) return std::nullopt;
     place.along = line.along(point);
     place.away = stripes.away.dot(point - line.point);
     place.deviation = kVisibility.beam * scales.noise;
-    place.sharp = true;
+    place.ended = true;
   } else {
-    // A segment that runs on turns at the plate's edge into the cut, if the cut is in sight; else
-    // the plate ends between two of the points that are left.
+    // A segment that runs on turns at the plate's edge, if what it turns to is in sight; else the
+    // plate ends between two of the points that are left.
     if (!joined) return std::nullopt;
-    const auto cut = cut_beyond(cloud, plate, line, last, at_back, scales);
     const Eigen::Vector3d way = cloud.points[beyond] - cloud.points[last];
+    // Where the stripe leaves the plane gently, the plate is bent.
+    if (std::abs(height_over(stripes, cloud.points[beyond])) < kEnds.least_turn * way.norm())
+      return std::nullopt;
     const Eigen::Vector3d between = way - plate.plane.normal.dot(way) * plate.plane.normal;
-    const Eigen::Vector3d point = cloud.points[last] + 0.5 * between;
-    place.along = cut ? *cut : line.along(point);
+    const auto turn = turn_beyond(cloud, stripes, last, at_back, scales.noise);
+    const Eigen::Vector3d point = turn ? turn->place : cloud.points[last] + 0.5 * between;
+    place.along = line.along(point);
     place.away = stripes.away.dot(point - line.point);
-    if (cut) {
-      place.deviation = std::hypot(kEnds.cut_noise, kVisibility.beam * scales.noise);
-    } else {
-      // Where the stripe leaves the plane gently, the plate is bent.
-      if (std::abs(height_over(stripes, cloud.points[beyond])) < kEnds.least_turn * way.norm())
-        return std::nullopt;
+    if (turn)
+      place.deviation = turn->longer * std::hypot(kEnds.cut_noise, kVisibility.beam * scales.noise);
+    else
       place.spread = between.norm() / std::sqrt(12.0);
-    }
-    place.sharp = cut.has_value();
   }
   if (!more) return place;
   const double height = height_over(stripes, cloud.points[beyond]);

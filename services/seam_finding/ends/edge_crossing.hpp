@@ -18,8 +18,8 @@ struct EdgeCrossing {
   double way_along = 0, way_away = 0;
   // Standard deviations for want of resolution alone: along the seam, and along the stripe; mm.
   double deviation = 0, spread = 0;
-  double pixel = 0;    // what a pixel square to the edge is along the seam; mm, at a segment's end
-  bool sharp = false;  // a segment ends there, or turns over the edge
+  double pixel = 0;    // what a pixel square to the edge is along the seam; mm
+  bool ended = false;  // by the end of a segment: its light ends before the edge
   bool occluded = false;
   bool falls = false;  // what the stripe shows next lies behind the plate: it has ended
 };

@@ -19,7 +19,7 @@ double variance_of(const EdgeCrossing& edge, double slope, double roughness) {
   const double leaves = leaving(edge, slope);
   const double light =
       kEnds.light_deviation + kEnds.flat_deviation * std::max(0.0, kEnds.flat_crossing - leaves);
-  return square(edge.deviation) + square(leaves * edge.spread) + square(light * edge.pixel) +
+  return square(edge.deviation) + square(leaves * edge.spread) + square(edge.ended ? light * edge.pixel : 0) +
          square(roughness) + square(kEnds.least_place_noise);
 }
 
@@ -64,12 +64,14 @@ std::vector<Told> slopes_told(const std::vector<StripeEvidence>& evidence, const
   std::vector<const EdgeCrossing*> edges;
   for (const StripeEvidence& stripe : evidence)
     for (const EdgeCrossing& edge : stripe.edges)
-      if (edge.sharp && !edge.occluded) edges.push_back(&edge);
+      if (!edge.occluded) edges.push_back(&edge);
   std::vector<Told> told;
-  for (const EdgeCrossing* a : edges)
-    for (const EdgeCrossing* b : edges) {
+  // An edge is crossed by stripes that follow each other; between them one may end elsewhere.
+  for (std::size_t i = 0; i < edges.size(); ++i)
+    for (std::size_t j = i + 1; j < edges.size() && j <= i + kModel.stripes_in_a_row; ++j) {
+      const EdgeCrossing *a = edges[i], *b = edges[j];
       const double apart = b->away - a->away;
-      if (apart < kEnds.direction_base) continue;
+      if (std::abs(apart) < kEnds.direction_base) continue;
       const double slope = (b->along - a->along) / apart, foot = a->along - slope * a->away;
       if (std::abs(slope) > kEnds.steepest || foot < grid.first ||
           foot > grid.at(grid.count - 1) || leaving(*a, slope) < kEnds.least_slant ||
@@ -105,12 +107,13 @@ std::vector<Told> slopes_told(const std::vector<StripeEvidence>& evidence, const
 }  // namespace
 
 std::vector<Slope> slopes_of(const std::vector<StripeEvidence>& evidence, const PlaceGrid& grid,
-                             double edge_slope) {
+                             const SquareEdge& square) {
   std::vector<Slope> slopes;
-  add_normal(0, edge_slope, 1 - kEnds.slanted_share, slopes);
+  add_normal(square.slope, square.deviation, 1 - kEnds.slanted_share, slopes);
   const double density = kEnds.slanted_share / (2 * kEnds.steepest);
   for (const Told& told : slopes_told(evidence, grid)) {
-    if (std::abs(told.slope) < 3 * std::hypot(edge_slope, told.deviation)) continue;
+    if (std::abs(told.slope - square.slope) < 3 * std::hypot(square.deviation, told.deviation))
+      continue;
     add_told(told.slope, told.deviation, density, slopes);
   }
   for (int i = 0; i < kEnds.slanted_steps; ++i)

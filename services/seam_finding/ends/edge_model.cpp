@@ -140,8 +140,8 @@ EdgeTold EdgeModel::told_at(double place, double slope, double roughness) const 
       ++told.crossings;
       told.occluded += edge.occluded;
       // Light ends over one edge in one way; of points that were thinned out none may lie nearer.
-      told.common += edge.sharp ? kEnds.common_deviation * edge.pixel
-                                : std::sqrt(variance_of(edge, slope, 0));
+      told.common +=
+          std::hypot(kEnds.common_deviation * edge.pixel, leaving(edge, slope) * edge.spread);
     }
   if (told.crossings > 0) told.common /= told.crossings;
   return told;

@@ -185,7 +185,8 @@ void drop_side_edge(std::vector<StripeEvidence>& stripes) {
 
 // As it counts outward. The light ends before the edge.
 EdgeCrossing toward(EdgeCrossing edge, double outward, double shortening_px) {
-  edge.along = outward * edge.along + shortening_px * edge.pixel;
+  edge.along *= outward;
+  if (edge.ended) edge.along += shortening_px * edge.pixel;
   edge.way_along *= outward;
   return edge;
 }
@@ -250,6 +251,17 @@ std::array<std::vector<StripeEvidence>, 2> plate_evidence(const ScanCloud& cloud
     drop_side_edge(stripes_toward);
   }
   return both;
+}
+
+std::vector<StripeEvidence> beside_seam(std::vector<StripeEvidence> evidence, double seam_away) {
+  for (StripeEvidence& stripe : evidence) {
+    for (auto* stretches : {&stripe.on, &stripe.off})
+      for (Stretch& stretch : *stretches)
+        for (PlacePart& part : stretch) part.away -= seam_away;
+    for (EdgeCrossing& edge : stripe.edges) edge.away -= seam_away;
+    if (stripe.absent) stripe.absent->away -= seam_away;
+  }
+  return evidence;
 }
 
 }  // namespace arcstart::seam_finding

@@ -40,4 +40,7 @@ std::array<std::vector<StripeEvidence>, 2> plate_evidence(const ScanCloud& cloud
                                                           const Scales& scales,
                                                           const SeamFindingSettings& settings);
 
+// The same, away from a seam that lies so far away from the line; mm.
+std::vector<StripeEvidence> beside_seam(std::vector<StripeEvidence> evidence, double seam_away);
+
 }  // namespace arcstart::seam_finding
