@@ -19,12 +19,10 @@ struct EndConstants {
   // mm along the seam for each mm of a stripe: below it light fades slowly at the edge. And the px
   // that are added for each so much less - bench.
   double flat_crossing = 0.2, flat_deviation = 8;
-  // mm; between points on an edge face, at least - bench.
+  // mm; between the depths of points on an edge face that tell its edge, at least - bench.
   double least_drop = 0.5;
   // Points on an edge face, at most - bench.
   int most_on_cut = 20;
-  // Of an edge face, mm along the seam for each mm of its depth, at most - bench.
-  double cut_slant = 0.15;
   // mm; standard deviation of an edge face's place along the seam - bench.
   double cut_noise = 0.07;
   // mm behind or before a plate for each mm of a stripe that leaves it over its edge, at least:
@@ -32,8 +30,6 @@ struct EndConstants {
   double least_turn = 0.2;
   // mm; over such a way the noise of points leaves a direction known - bench.
   double direction_base = 3;
-  // Steps that show the usual one - bench.
-  std::size_t step_sample = 64;
   // Of a stripe, mm along the seam for each mm of its length, at least - bench.
   double least_slant = 0.05;
 

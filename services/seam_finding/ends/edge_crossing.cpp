@@ -4,7 +4,6 @@
 #include <cmath>
 
 #include "services/seam_finding/ends/constants.hpp"
-#include "services/seam_finding/fit/order_statistics.hpp"
 
 namespace arcstart::seam_finding {
 namespace {
@@ -19,49 +18,43 @@ Eigen::Vector3d direction_at_end(const ScanCloud& cloud, const std::vector<int>&
   return way.norm() > 1e-6 ? way.normalized() : way;
 }
 
-// The usual way between the points that are left of a stripe.
-double thinned_step(const ScanCloud& cloud, const std::vector<int>& run) {
-  std::vector<double> steps;
-  for (std::size_t i = 1; i < run.size(); i += 1 + run.size() / kEnds.step_sample)
-    steps.push_back((cloud.points[run[i]] - cloud.points[run[i - 1]]).norm());
-  return median(steps);
-}
-
-// Where along the seam the cut is over whose edge the stripe turns, from its next points: a cut is
-// square to the plate, so that what lies on it lies at the edge.
-std::optional<double> cut_beyond(const ScanCloud& cloud, const JointPlate& plate, const Line& line,
-                                 int last, bool at_back, const Scales& scales) {
-  const int step = at_back ? 1 : -1;
-  double sum = 0, first_along = 0, first_depth = 0;
-  for (int k = 1; k <= kEnds.most_on_cut; ++k) {
-    const int i = last + k * step;
+// The edge over which a stripe turns: what it shows next lies on one straight piece, a cut or a
+// chamfer, that begins at the plate.
+struct Turn {
+  Eigen::Vector3d place;
+  double longer;  // its deviation over that of a point
+};
+std::optional<Turn> turn_beyond(const ScanCloud& cloud, const PlateStripes& stripes, int last,
+                                bool at_back, double noise) {
+  const int step = at_back ? 1 : -1, next = last + step;
+  const Eigen::Vector3d& first = cloud.points[next];
+  const double depth = -height_over(stripes, first);
+  std::optional<Turn> turn;
+  for (int k = 1; k < kEnds.most_on_cut; ++k) {
+    const int i = next + k * step;
     if (i < 0 || i >= cloud.size() || cloud.origins[i].stripe != cloud.origins[last].stripe ||
         cloud.origins[i].segment != cloud.origins[last].segment)
       break;
-    const double along = line.along(cloud.points[i]);
-    const double depth = -plate.plane.signed_distance(cloud.points[i]);
-    if (k == 1) first_along = along, first_depth = depth;
-    sum += along;
-    const double drop = depth - first_depth;
-    if (drop < kEnds.least_drop) continue;
-    if (std::abs(along - first_along) >
-        kEnds.cut_slant * drop + kFit.outlier * kVisibility.beam * scales.noise)
-      break;
-    return sum / k;
+    const Eigen::Vector3d way = cloud.points[i] - first;
+    for (int j = next + step; j != i; j += step)
+      if ((cloud.points[j] - first).cross(way.normalized()).norm() > kFit.outlier * noise)
+        return turn;
+    const double drop = -height_over(stripes, cloud.points[i]) - depth;
+    if (drop * depth <= 0 || std::abs(drop) < kEnds.least_drop) continue;
+    const double back = depth / drop;
+    turn = Turn{first - back * way, std::hypot(1 + back, back)};
   }
-  return std::nullopt;
+  return turn;
 }
 
 // Where the light at a segment's end lies. Of a stripe that is cut off at a slant the last of the
 // light lies beside the laser's plane, but on the plate it does lie: where the line of sight meets
-// it.
-std::optional<Eigen::Vector3d> on_plate(const ScanCloud& cloud, const PlateStripes& stripes,
-                                        int i) {
-  const Eigen::Vector3d& eye = cloud.seen_from(i);
-  const Eigen::Vector3d sight = cloud.points[i] - eye;
-  const double toward = -stripes.plate.plane.normal.dot(sight.normalized());
-  if (toward < kVisibility.least_sight) return std::nullopt;
-  return cloud.points[i] + sight.normalized() * (height_over(stripes, cloud.points[i]) / toward);
+// it, unless it runs along the plate.
+Eigen::Vector3d on_plate(const ScanCloud& cloud, const PlateStripes& stripes, int i) {
+  const Eigen::Vector3d sight = (cloud.points[i] - cloud.seen_from(i)).normalized();
+  const double toward = -stripes.plate.plane.normal.dot(sight);
+  if (toward < kVisibility.least_sight) return cloud.points[i];
+  return cloud.points[i] + sight * (height_over(stripes, cloud.points[i]) / toward);
 }
 
 // Way along the seam that shifts an edge square to it by a pixel in the image; mm. A pixel is known
@@ -81,14 +74,11 @@ double pixel_along(const ScanCloud& cloud, int end, int next, const Line& line,
 }  // namespace
 
 std::optional<EdgeCrossing> edge_crossing(const ScanCloud& cloud, const std::vector<int>& run,
-                                          const PlateStripes& stripes, SeamSide side,
-                                          const Scales& scales,
-                                          const SeamFindingSettings& settings) {
+                                          const PlateStripes& stripes, bool at_back,
+                                          const Scales& scales) {
   if (run.size() < 3) return std::nullopt;
   const JointPlate& plate = stripes.plate;
   const Line& line = stripes.line;
-  const bool rising = line.along(cloud.points[run.back()]) > line.along(cloud.points[run.front()]);
-  const bool at_back = rising == (side == SeamSide::kEnd);
   const int last = at_back ? run.back() : run.front();
   const int beyond = at_back ? last + 1 : last - 1;
   const ScanStripe& stripe = cloud.stripes[cloud.origins[last].stripe];
@@ -102,41 +92,35 @@ std::optional<EdgeCrossing> edge_crossing(const ScanCloud& cloud, const std::vec
     return std::nullopt;
 
   const Eigen::Vector3d direction = direction_at_end(cloud, run, at_back);
-  const double slant = std::abs(direction.dot(line.direction));
-  if (slant < kEnds.least_slant) return std::nullopt;
-  const double outward = side == SeamSide::kEnd ? 1 : -1;
   EdgeCrossing place;
+  place.way_along = direction.dot(line.direction), place.way_away = direction.dot(stripes.away);
+  const int inner = at_back ? run[run.size() - 2] : run[1];
+  place.pixel = pixel_along(cloud, last, inner, line, stripes.away);
+  if (place.pixel == 0) return std::nullopt;
   if (cloud.origins[last].segment_end) {
     // Known to a centre.
-    const auto point = on_plate(cloud, stripes, last);
-    if (!point) return std::nullopt;
-    const int inner = at_back ? run[run.size() - 2] : run[1];
-    place.pixel = pixel_along(cloud, last, inner, line, stripes.away);
-    place.along = line.along(*point) + outward * settings.edge_shortening_px * place.pixel;
-    place.away = stripes.away.dot(*point - line.point);
-    const double end =
-        kEnds.light_deviation + kEnds.flat_deviation * std::max(0.0, kEnds.flat_crossing - slant);
-    place.deviation = std::hypot(end * place.pixel, kVisibility.beam * scales.noise);
-    place.sharp = true;
-  } else {
-    // A segment that runs on turns at the plate's edge into the cut, if the cut is in sight; else
-    // the plate ends between two of the points that are left.
-    const double step = thinned_step(cloud, run);
-    const auto cut = cut_beyond(cloud, plate, line, last, at_back, scales);
-    const Eigen::Vector3d point = cloud.points[last] + 0.5 * step * direction;
-    place.along = cut ? *cut : line.along(point);
+    const Eigen::Vector3d point = on_plate(cloud, stripes, last);
+    place.along = line.along(point);
     place.away = stripes.away.dot(point - line.point);
-    if (cut) {
-      place.deviation = std::hypot(kEnds.cut_noise, kVisibility.beam * scales.noise);
-    } else {
-      // Where the stripe leaves the plane gently, the plate is bent.
-      if (joined && std::abs(height_over(stripes, cloud.points[beyond])) <
-                        kEnds.least_turn * (cloud.points[beyond] - cloud.points[last]).norm())
-        return std::nullopt;
-      place.deviation = slant * step / std::sqrt(12.0);
-      place.deviation_away = direction.dot(stripes.away) * step / std::sqrt(12.0);
-    }
-    place.sharp = cut.has_value();
+    place.deviation = kVisibility.beam * scales.noise;
+    place.ended = true;
+  } else {
+    // A segment that runs on turns at the plate's edge, if what it turns to is in sight; else the
+    // plate ends between two of the points that are left.
+    if (!joined) return std::nullopt;
+    const Eigen::Vector3d way = cloud.points[beyond] - cloud.points[last];
+    // Where the stripe leaves the plane gently, the plate is bent.
+    if (std::abs(height_over(stripes, cloud.points[beyond])) < kEnds.least_turn * way.norm())
+      return std::nullopt;
+    const Eigen::Vector3d between = way - plate.plane.normal.dot(way) * plate.plane.normal;
+    const auto turn = turn_beyond(cloud, stripes, last, at_back, scales.noise);
+    const Eigen::Vector3d point = turn ? turn->place : cloud.points[last] + 0.5 * between;
+    place.along = line.along(point);
+    place.away = stripes.away.dot(point - line.point);
+    if (turn)
+      place.deviation = turn->longer * std::hypot(kEnds.cut_noise, kVisibility.beam * scales.noise);
+    else
+      place.spread = between.norm() / std::sqrt(12.0);
   }
   if (!more) return place;
   const double height = height_over(stripes, cloud.points[beyond]);

@@ -14,19 +14,21 @@ namespace arcstart::seam_finding {
 
 struct EdgeCrossing {
   double along = 0, away = 0;  // of the seam, from it; mm
-  // For want of resolution alone, of along and, with it, of away: both move along the stripe; mm.
-  double deviation = 0, deviation_away = 0;
-  double pixel = 0;    // what a pixel square to the edge is along the seam; mm, at a segment's end
-  bool sharp = false;  // a segment ends there, or turns over the edge
+  // The stripe's way out of the plate, along the seam and away from it; unit.
+  double way_along = 0, way_away = 0;
+  // Standard deviations for want of resolution alone: along the seam, and along the stripe; mm.
+  double deviation = 0, spread = 0;
+  double pixel = 0;    // what a pixel square to the edge is along the seam; mm
+  bool ended = false;  // by the end of a segment: its light ends before the edge
   bool occluded = false;
   bool falls = false;  // what the stripe shows next lies behind the plate: it has ended
 };
 
-// Of a plate's points in one stripe. Nothing where it goes on to the other plate, or runs along the
-// edge.
+// Of a plate's points in one stripe, where they end at the back or at the front: a stripe leaves a
+// plate over an edge that runs away from the seam more steeply than itself where it comes nearer to
+// the seam, over any other where it goes farther. Nothing where it goes on to the other plate.
 std::optional<EdgeCrossing> edge_crossing(const ScanCloud& cloud, const std::vector<int>& run,
-                                          const PlateStripes& stripes, SeamSide side,
-                                          const Scales& scales,
-                                          const SeamFindingSettings& settings);
+                                          const PlateStripes& stripes, bool at_back,
+                                          const Scales& scales);
 
 }  // namespace arcstart::seam_finding

@@ -10,10 +10,17 @@
 
 namespace arcstart::seam_finding {
 
+double leaving(const EdgeCrossing& edge, double slope) {
+  return edge.way_along - slope * edge.way_away;
+}
+
 double variance_of(const EdgeCrossing& edge, double slope, double roughness) {
-  const double deviation = edge.deviation - slope * edge.deviation_away;
-  return deviation * deviation + roughness * roughness +
-         kEnds.least_place_noise * kEnds.least_place_noise;
+  const auto square = [](double x) { return x * x; };
+  const double leaves = leaving(edge, slope);
+  const double light =
+      kEnds.light_deviation + kEnds.flat_deviation * std::max(0.0, kEnds.flat_crossing - leaves);
+  return square(edge.deviation) + square(leaves * edge.spread) + square(edge.ended ? light * edge.pixel : 0) +
+         square(roughness) + square(kEnds.least_place_noise);
 }
 
 namespace {
@@ -56,18 +63,25 @@ struct Told {
 std::vector<Told> slopes_told(const std::vector<StripeEvidence>& evidence, const PlaceGrid& grid) {
   std::vector<const EdgeCrossing*> edges;
   for (const StripeEvidence& stripe : evidence)
-    if (stripe.edge && stripe.edge->sharp && !stripe.edge->occluded) edges.push_back(&*stripe.edge);
+    for (const EdgeCrossing& edge : stripe.edges)
+      if (!edge.occluded) edges.push_back(&edge);
   std::vector<Told> told;
-  for (const EdgeCrossing* a : edges)
-    for (const EdgeCrossing* b : edges) {
+  // An edge is crossed by stripes that follow each other; between them one may end elsewhere.
+  for (std::size_t i = 0; i < edges.size(); ++i)
+    for (std::size_t j = i + 1; j < edges.size() && j <= i + kModel.stripes_in_a_row; ++j) {
+      const EdgeCrossing *a = edges[i], *b = edges[j];
       const double apart = b->away - a->away;
-      if (apart < kEnds.direction_base) continue;
+      if (std::abs(apart) < kEnds.direction_base) continue;
       const double slope = (b->along - a->along) / apart, foot = a->along - slope * a->away;
-      if (std::abs(slope) > kEnds.steepest || foot < grid.first || foot > grid.at(grid.count - 1))
+      if (std::abs(slope) > kEnds.steepest || foot < grid.first ||
+          foot > grid.at(grid.count - 1) || leaving(*a, slope) < kEnds.least_slant ||
+          leaving(*b, slope) < kEnds.least_slant)
         continue;
       double w = 0, r = 0, t = 0, rr = 0, rt = 0;
       for (const EdgeCrossing* edge : edges) {
-        if (std::abs(edge->along - foot - slope * edge->away) > kEnds.agree + 2 * edge->deviation)
+        if (leaving(*edge, slope) < kEnds.least_slant) continue;
+        if (std::abs(edge->along - foot - slope * edge->away) >
+            kEnds.agree + 2 * std::sqrt(variance_of(*edge, slope, 0)))
           continue;
         const double weight = 1 / variance_of(*edge, slope, kEnds.told_noise);
         w += weight, r += weight * edge->away, t += weight * edge->along;
@@ -93,12 +107,13 @@ std::vector<Told> slopes_told(const std::vector<StripeEvidence>& evidence, const
 }  // namespace
 
 std::vector<Slope> slopes_of(const std::vector<StripeEvidence>& evidence, const PlaceGrid& grid,
-                             double edge_slope) {
+                             const SquareEdge& square) {
   std::vector<Slope> slopes;
-  add_normal(0, edge_slope, 1 - kEnds.slanted_share, slopes);
+  add_normal(square.slope, square.deviation, 1 - kEnds.slanted_share, slopes);
   const double density = kEnds.slanted_share / (2 * kEnds.steepest);
   for (const Told& told : slopes_told(evidence, grid)) {
-    if (std::abs(told.slope) < 3 * std::hypot(edge_slope, told.deviation)) continue;
+    if (std::abs(told.slope - square.slope) < 3 * std::hypot(square.deviation, told.deviation))
+      continue;
     add_told(told.slope, told.deviation, density, slopes);
   }
   for (int i = 0; i < kEnds.slanted_steps; ++i)

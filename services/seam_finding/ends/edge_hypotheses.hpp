@@ -25,10 +25,20 @@ struct Slope {
   std::vector<Hypothesis> hypotheses;
 };
 
-// Square within `edge_slope` (standard deviation), those that crossings tell, and some that stand
-// for all up to the steepest.
+// The slope of an edge that is cut square, and how well (standard deviation): along for each mm
+// away.
+struct SquareEdge {
+  double slope = 0, deviation = 0;
+};
+
+// Square, those that crossings tell, and some that stand for all up to the steepest.
 std::vector<Slope> slopes_of(const std::vector<StripeEvidence>& evidence, const PlaceGrid& grid,
-                             double edge_slope);
+                             const SquareEdge& square);
+
+// How far a stripe comes outward of an edge at a slope, along the seam, for each mm that it goes on
+// behind the crossing. Where that is less than `kEnds.least_slant` it does not leave the plate over
+// such an edge there, or runs along it.
+double leaving(const EdgeCrossing& edge, double slope);
 
 // Of the foot of an edge at a slope through one crossing; mm2.
 double variance_of(const EdgeCrossing& edge, double slope, double roughness);

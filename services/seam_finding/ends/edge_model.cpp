@@ -46,15 +46,12 @@ namespace {
 double foot(const PlacePart& part, double slope) { return part.out - slope * part.away; }
 double foot(const EdgeCrossing& edge, double slope) { return edge.along - slope * edge.away; }
 
-// The outline of something before the plate tells no edge of it.
-bool may_tell(const StripeEvidence& stripe) { return stripe.edge && !stripe.edge->occluded; }
-
 // Of a crossing where the edge is not, the logarithm of its density over places: the edge is
 // farther out, and the stripe ends for another reason; or farther in, and this is another thing's.
-double density_before(const StripeEvidence& stripe) {
-  const double share = stripe.covered       ? kEnds.ends_covered
-                       : stripe.edge->falls ? kEnds.ends_falling
-                                            : kEnds.ends_early;
+double density_before(const EdgeCrossing& edge, bool covered) {
+  const double share = covered      ? kEnds.ends_covered
+                       : edge.falls ? kEnds.ends_falling
+                                    : kEnds.ends_early;
   return std::log(share / kEnds.way_seen);
 }
 double density_beyond() { return -std::log(kEnds.way_seen); }
@@ -92,50 +89,60 @@ std::vector<double> EdgeModel::steps(double slope) const {
     const double absent = std::log(stripe.covered ? kEnds.absent_covered : kEnds.absent);
     const double past = std::log(kEnds.seen_past);
     const auto off = innermost_off(stripe, slope);
-    if (stripe.absent) log.add_beyond(*stripe.absent, absent);
+    if (stripe.absent) log.add_beyond(foot(*stripe.absent, slope), absent);
     if (off) log.add_beyond(*off, past);
     // Both of one stripe are hardly more than one witness.
     if (stripe.absent && off)
-      log.add_beyond(std::max(*stripe.absent, *off),
+      log.add_beyond(std::max(foot(*stripe.absent, slope), *off),
                      std::min(absent, past) + std::log(kEnds.second_witness) - absent - past);
     add_on(stripe, slope, log);
-    if (!may_tell(stripe)) continue;
-    log.add_before(foot(*stripe.edge, slope), density_beyond());
-    log.add_beyond(foot(*stripe.edge, slope), density_before(stripe));
+    for (const EdgeCrossing& edge : stripe.edges) {
+      // The outline of something before the plate tells no edge of it.
+      if (edge.occluded) continue;
+      log.add_before(foot(edge, slope), density_beyond());
+      log.add_beyond(foot(edge, slope), density_before(edge, stripe.covered));
+    }
   }
   return log.values();
 }
 
 void EdgeModel::add_peaks(double slope, double roughness, std::vector<double>& log) const {
-  for (const StripeEvidence& stripe : evidence_) {
-    if (!may_tell(stripe)) continue;
-    const double place = foot(*stripe.edge, slope);
-    const double deviation = std::sqrt(variance_of(*stripe.edge, slope, roughness));
-    const double top = -std::log(deviation * std::sqrt(2 * std::numbers::pi));
-    const double before = density_before(stripe), beyond = density_beyond();
-    const double reach = deviation * std::sqrt(2 * std::max(0.0, top - before));
-    const auto index = [this](double at) { return (at - grid_.first) / grid_.step; };
-    const int from = std::max(0, static_cast<int>(std::ceil(index(place - reach))));
-    const int to = std::min(grid_.count - 1, static_cast<int>(std::floor(index(place + reach))));
-    for (int i = from; i <= to; ++i) {
-      const double off = (grid_.at(i) - place) / deviation;
-      log[i] += std::max(0.0, top - off * off / 2 - (off > 0 ? before : beyond));
-    }
+  for (const StripeEvidence& stripe : evidence_)
+    for (const EdgeCrossing& edge : stripe.edges)
+      if (!edge.occluded && leaving(edge, slope) >= kEnds.least_slant)
+        add_peak(edge, stripe.covered, slope, roughness, log);
+}
+
+void EdgeModel::add_peak(const EdgeCrossing& edge, bool covered, double slope, double roughness,
+                         std::vector<double>& log) const {
+  const double place = foot(edge, slope);
+  const double deviation = std::sqrt(variance_of(edge, slope, roughness));
+  const double top = -std::log(deviation * std::sqrt(2 * std::numbers::pi));
+  const double before = density_before(edge, covered), beyond = density_beyond();
+  const double reach = deviation * std::sqrt(2 * std::max(0.0, top - before));
+  const auto index = [this](double at) { return (at - grid_.first) / grid_.step; };
+  const int from = std::max(0, static_cast<int>(std::ceil(index(place - reach))));
+  const int to = std::min(grid_.count - 1, static_cast<int>(std::floor(index(place + reach))));
+  for (int i = from; i <= to; ++i) {
+    const double off = (grid_.at(i) - place) / deviation;
+    log[i] += std::max(0.0, top - off * off / 2 - (off > 0 ? before : beyond));
   }
 }
 
 EdgeTold EdgeModel::told_at(double place, double slope, double roughness) const {
   EdgeTold told;
-  for (const StripeEvidence& stripe : evidence_) {
-    if (!stripe.edge) continue;
-    const double deviation = std::sqrt(variance_of(*stripe.edge, slope, roughness));
-    if (std::abs(foot(*stripe.edge, slope) - place) > kFit.outlier * deviation) continue;
-    ++told.crossings;
-    told.occluded += stripe.edge->occluded;
-    // Light ends over one edge in one way; of points that were thinned out none may lie nearer.
-    told.common += stripe.edge->sharp ? kEnds.common_deviation * stripe.edge->pixel
-                                      : std::sqrt(variance_of(*stripe.edge, slope, 0));
-  }
+  for (const StripeEvidence& stripe : evidence_)
+    for (const EdgeCrossing& edge : stripe.edges) {
+      const double deviation = std::sqrt(variance_of(edge, slope, roughness));
+      if (leaving(edge, slope) < kEnds.least_slant ||
+          std::abs(foot(edge, slope) - place) > kFit.outlier * deviation)
+        continue;
+      ++told.crossings;
+      told.occluded += edge.occluded;
+      // Light ends over one edge in one way; of points that were thinned out none may lie nearer.
+      told.common +=
+          std::hypot(kEnds.common_deviation * edge.pixel, leaving(edge, slope) * edge.spread);
+    }
   if (told.crossings > 0) told.common /= told.crossings;
   return told;
 }

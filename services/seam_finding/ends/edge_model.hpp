@@ -28,6 +28,8 @@ class EdgeModel {
 
  private:
   class Steps;
+  void add_peak(const EdgeCrossing& edge, bool covered, double slope, double roughness,
+                std::vector<double>& log) const;
   std::optional<double> seen_past_before(double limit, double away, double slope) const;
   void add_on(const StripeEvidence& stripe, double slope, Steps& log) const;
 

@@ -13,7 +13,7 @@ namespace arcstart::seam_finding {
 namespace {
 
 FootLikelihood of_straight_edge(const std::vector<StripeEvidence>& evidence, const PlaceGrid& grid,
-                                double edge_slope) {
+                                const SquareEdge& square) {
   const EdgeModel model(evidence, grid);
   FootLikelihood likelihood;
   likelihood.at.assign(static_cast<std::size_t>(grid.count), 0);
@@ -22,7 +22,7 @@ FootLikelihood of_straight_edge(const std::vector<StripeEvidence>& evidence, con
   std::vector<double> log;
   int best_place = 0;
   double best_slope = 0, best_roughness = 0;
-  for (const Slope& slope : slopes_of(evidence, grid, edge_slope)) {
+  for (const Slope& slope : slopes_of(evidence, grid, square)) {
     const std::vector<double> steps = model.steps(slope.slope);
     for (const auto& [roughness, weight] : slope.hypotheses) {
       log = steps;
@@ -72,8 +72,8 @@ std::vector<StripeEvidence> between(const std::vector<StripeEvidence>& evidence,
       if (const auto piece = clipped(on, from, to)) part.on.push_back(*piece);
     for (const Stretch& off : stripe.off)
       if (const auto piece = clipped(off, from, to)) part.off.push_back(*piece);
-    if (stripe.edge && stripe.edge->away >= from && stripe.edge->away <= to)
-      part.edge = stripe.edge;
+    for (const EdgeCrossing& edge : stripe.edges)
+      if (edge.away >= from && edge.away <= to) part.edges.push_back(edge);
     if (from <= 0) part.absent = stripe.absent;
     parts.push_back(std::move(part));
   }
@@ -83,15 +83,15 @@ std::vector<StripeEvidence> between(const std::vector<StripeEvidence>& evidence,
 // Where the straight edge far from the seam lies farther out by no more than a cope hole is wide.
 // What lies between tells nothing of either.
 void add_coped(const std::vector<StripeEvidence>& evidence, const std::vector<double>& near,
-               const PlaceGrid& grid, double edge_slope, FootLikelihood& likelihood) {
+               const PlaceGrid& grid, const SquareEdge& square, FootLikelihood& likelihood) {
   const auto far =
       of_straight_edge(between(evidence, kEnds.cope_most, std::numeric_limits<double>::infinity()),
-                       grid, edge_slope);
+                       grid, square);
   const auto reach = static_cast<std::size_t>(kEnds.cope_most / grid.step);
   double prior = std::log(kEnds.coped_share / kEnds.cope_most * grid.step) + far.scale;
   for (const StripeEvidence& stripe : evidence)
-    if (stripe.edge && !stripe.edge->occluded && stripe.edge->away < kEnds.cope_most)
-      prior -= std::log(kEnds.way_seen);
+    for (const EdgeCrossing& edge : stripe.edges)
+      if (!edge.occluded && edge.away < kEnds.cope_most) prior -= std::log(kEnds.way_seen);
   std::vector<double> coped(near.size());
   double sum = 0, scale = likelihood.scale;
   for (std::size_t i = near.size(); i-- > 0;) {
@@ -109,14 +109,14 @@ void add_coped(const std::vector<StripeEvidence>& evidence, const std::vector<do
 }  // namespace
 
 FootLikelihood foot_likelihood(const std::vector<StripeEvidence>& evidence, const PlaceGrid& grid,
-                               double edge_slope) {
-  FootLikelihood likelihood = of_straight_edge(evidence, grid, edge_slope);
+                               const SquareEdge& square) {
+  FootLikelihood likelihood = of_straight_edge(evidence, grid, square);
   const auto beside = between(evidence, 0, kEnds.cope_seen);
   const std::vector<double> near = EdgeModel(beside, grid).steps(0);
   const auto likeliest = std::max_element(likelihood.at.begin(), likelihood.at.end());
   const double claimed = near[static_cast<std::size_t>(likeliest - likelihood.at.begin())];
   if (claimed < *std::max_element(near.begin(), near.end()) - kEnds.cope_told)
-    add_coped(evidence, near, grid, edge_slope, likelihood);
+    add_coped(evidence, near, grid, square, likelihood);
   return likelihood;
 }
 

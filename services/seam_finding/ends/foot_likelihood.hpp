@@ -17,11 +17,10 @@ struct FootLikelihood {
 };
 
 // A plate ends at a straight edge: how it crosses the seam, and at which slope, is what makes the
-// evidence likely or not. It may be cut square, within `edge_slope` (mm along the seam for each mm
-// away from it, standard deviation), or at any slope up to the steepest; the likelihood is the mean
+// evidence likely or not. It may be cut square, or at any slope up to the steepest; the likelihood is the mean
 // over slopes, and over how rough the edge is. Where what is seen beside the seam speaks against
 // the edge, the plate's corner may be cut out there (a cope hole): then it ends farther in.
 FootLikelihood foot_likelihood(const std::vector<StripeEvidence>& evidence, const PlaceGrid& grid,
-                               double edge_slope);
+                               const SquareEdge& square);
 
 }  // namespace arcstart::seam_finding

@@ -18,6 +18,7 @@ struct Standing {
 struct Seen {
   bool shown = false, covered = false;  // the plate at the seam; something before it
   std::vector<Stretch> on, off;
+  std::vector<EdgeCrossing> edges;
 };
 
 class Collector {
@@ -167,18 +168,27 @@ void spread_cover(std::vector<StripeEvidence>& stripes) {
 // Stripes that leave the plate as far from the seam as others do, elsewhere along it, leave it over
 // its side.
 void drop_side_edge(std::vector<StripeEvidence>& stripes) {
-  const auto beside = [](const StripeEvidence& one, const StripeEvidence& other) {
-    return one.edge && other.edge &&
-           std::abs(one.edge->away - other.edge->away) < kEnds.side_edge &&
-           std::abs(one.edge->along - other.edge->along) > 2 * kEnds.side_edge;
+  const auto beside = [](const EdgeCrossing& edge, const StripeEvidence& other) {
+    return std::any_of(other.edges.begin(), other.edges.end(), [&](const EdgeCrossing& its) {
+      return std::abs(edge.away - its.away) < kEnds.side_edge &&
+             std::abs(edge.along - its.along) > 2 * kEnds.side_edge;
+    });
   };
-  std::vector<std::size_t> side;
-  for (std::size_t i = 0; i < stripes.size(); ++i)
-    if (std::count_if(stripes.begin(), stripes.end(), [&](const StripeEvidence& other) {
-          return beside(stripes[i], other);
-        }) >= kModel.stripes_in_a_row)
-      side.push_back(i);
-  for (const std::size_t i : side) stripes[i].edge.reset();
+  const std::vector<StripeEvidence> all = stripes;
+  for (StripeEvidence& stripe : stripes)
+    std::erase_if(stripe.edges, [&](const EdgeCrossing& edge) {
+      return std::count_if(all.begin(), all.end(), [&](const StripeEvidence& other) {
+               return beside(edge, other);
+             }) >= kModel.stripes_in_a_row;
+    });
+}
+
+// As it counts outward. The light ends before the edge.
+EdgeCrossing toward(EdgeCrossing edge, double outward, double shortening_px) {
+  edge.along *= outward;
+  if (edge.ended) edge.along += shortening_px * edge.pixel;
+  edge.way_along *= outward;
+  return edge;
 }
 
 }  // namespace
@@ -194,6 +204,7 @@ std::array<std::vector<StripeEvidence>, 2> plate_evidence(const ScanCloud& cloud
   // the plate's other edge, along the seam.
   const double near = collector.begin() + kVisibility.near_seam;
   const double far = stripes.reach - kVisibility.far_edge;
+  const double beside = stations.list.empty() || stations.list.front().stripe < 0 ? 0 : near;
   // The plate is there at least so far before what it is seen by, and is not beyond.
   const double slack = kVisibility.beam * scales.noise + kEnds.half_stripe;
 
@@ -201,7 +212,7 @@ std::array<std::vector<StripeEvidence>, 2> plate_evidence(const ScanCloud& cloud
   for (const Station& station : stations.list) {
     if (!station.known) continue;
     const bool at_seam = station.nearest[plate] <= stations.near[plate];
-    Seen seen{at_seam, false, {}, {}};
+    Seen seen{at_seam, false, {}, {}, {}};
     if (station.stripe < 0) {
       if (at_seam) seen.on.push_back({PlacePart{station.along, 0}, PlacePart{station.along, 0}});
     } else {
@@ -209,6 +220,10 @@ std::array<std::vector<StripeEvidence>, 2> plate_evidence(const ScanCloud& cloud
       seen.on = collector.on(run);
       seen.off = collector.off(cloud.stripes[station.stripe], near);
       seen.shown = at_seam || collector.shows_within(near, run);
+      for (const bool at_back : {false, true})
+        if (const auto edge = edge_crossing(cloud, run, stripes, at_back, scales);
+            edge && edge->away > near && edge->away < far)
+          seen.edges.push_back(*edge);
     }
     seen.covered = !seen.shown && covers(standing, station.along);
 
@@ -216,22 +231,17 @@ std::array<std::vector<StripeEvidence>, 2> plate_evidence(const ScanCloud& cloud
       const double outward = static_cast<double>(side);
       StripeEvidence evidence;
       evidence.covered = seen.covered;
-      if (!seen.shown) evidence.absent = outward * station.along;
+      const double slant = outward * stations.slant[plate];
+      if (!seen.shown) evidence.absent = PlacePart{outward * station.along + slant * beside, beside};
       for (const Stretch& on : seen.on) evidence.on.push_back(moved(on, outward, -slack));
       for (const Stretch& off : seen.off) {
         evidence.off.push_back(moved(off, outward, slack));
-        const double slant = outward * stations.slant[plate];
         if (const auto light = fallen(off, seen.on, outward * station.along, slant))
           evidence.off.push_back(moved(*light, 1, slack));
       }
-      if (station.stripe >= 0)
-        evidence.edge =
-            edge_crossing(cloud, stripes.runs[station.stripe], stripes, side, scales, settings);
-      if (evidence.edge && (evidence.edge->away >= far || evidence.edge->away <= near))
-        evidence.edge.reset();
-      if (evidence.edge) {
-        evidence.edge->along *= outward;
-        evidence.covered |= evidence.edge->occluded;
+      for (const EdgeCrossing& edge : seen.edges) {
+        evidence.edges.push_back(toward(edge, outward, settings.edge_shortening_px));
+        evidence.covered |= edge.occluded;
       }
       both[side == SeamSide::kEnd].push_back(std::move(evidence));
     }
@@ -241,6 +251,17 @@ std::array<std::vector<StripeEvidence>, 2> plate_evidence(const ScanCloud& cloud
     drop_side_edge(stripes_toward);
   }
   return both;
+}
+
+std::vector<StripeEvidence> beside_seam(std::vector<StripeEvidence> evidence, double seam_away) {
+  for (StripeEvidence& stripe : evidence) {
+    for (auto* stretches : {&stripe.on, &stripe.off})
+      for (Stretch& stretch : *stretches)
+        for (PlacePart& part : stretch) part.away -= seam_away;
+    for (EdgeCrossing& edge : stripe.edges) edge.away -= seam_away;
+    if (stripe.absent) stripe.absent->away -= seam_away;
+  }
+  return evidence;
 }
 
 }  // namespace arcstart::seam_finding

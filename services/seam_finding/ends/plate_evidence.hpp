@@ -26,8 +26,9 @@ using Stretch = std::array<PlacePart, 2>;
 struct StripeEvidence {
   std::vector<Stretch> on;           // the plate is seen there
   std::vector<Stretch> off;          // what lies behind it is: there is none
-  std::optional<EdgeCrossing> edge;  // along counts outward, too
-  std::optional<double> absent;  // where the stripe crosses the seam, out; it shows no plate there
+  std::vector<EdgeCrossing> edges;  // where it leaves the plate, two at most; along: outward, too
+  // Where it shows no plate beside the seam: so far from it that others do.
+  std::optional<PlacePart> absent;
   bool covered = false;          // something stands before both plates where it crosses the seam
 };
 
@@ -38,5 +39,8 @@ std::array<std::vector<StripeEvidence>, 2> plate_evidence(const ScanCloud& cloud
                                                           const Stations& stations, int plate,
                                                           const Scales& scales,
                                                           const SeamFindingSettings& settings);
+
+// The same, away from a seam that lies so far away from the line; mm.
+std::vector<StripeEvidence> beside_seam(std::vector<StripeEvidence> evidence, double seam_away);
 
 }  // namespace arcstart::seam_finding

@@ -16,23 +16,41 @@ namespace {
 // What the scan shows of a plate's ends, along its line.
 struct PlateSight {
   Line line;
+  PlateBend bend, seam;  // of the plate, and of the seam in it
+  double height = 0;     // over the seam, of its line; mm
   std::array<std::vector<StripeEvidence>, 2> evidence;  // toward the begin and the end
+
+  // Places of the seam on the plate's own line.
+  double own(const Line& seam_line, double along) const {
+    const double place = line.along(seam_line.at(along));
+    // What lies over the seam on a bent plate lies over it square to the bend.
+    return place - height * bend.slope_at(place);
+  }
 };
 
 std::array<PlateSight, 2> sights_of(const ScanCloud& cloud, const Joint& joint,
                                     const Scales& scales, const SeamFindingSettings& settings) {
-  std::array<PlateSight, 2> sights;
-  std::array<Stations, 2> stations;
+  std::array<Stations, 2> stations = {joint.coverage.stations, joint.coverage.stations};
   if (joint.parallel) stations = stations_by_edge(cloud, joint, scales);
+  const auto stripes_of = [&](int j) {
+    return plate_stripes(cloud, joint.plates[j], joint.plates[1 - j],
+                         joint.parallel ? joint.parallel->edges[j] : joint.line, scales);
+  };
+  std::array<PlateStripes, 2> stripes = {stripes_of(0), stripes_of(1)};
+  std::array<PlateSight, 2> sights;
   for (int j = 0; j < 2; ++j) {
-    const Line& line = joint.parallel ? joint.parallel->edges[j] : joint.line;
-    for (Station& station : stations[j].list)
-      station.along = line.along(joint.line.at(station.along));
-    const PlateStripes stripes =
-        plate_stripes(cloud, joint.plates[j], joint.plates[1 - j], line, scales);
-    sights[j] = {
-        line, plate_evidence(cloud, stripes, joint.parallel ? stations[j] : joint.coverage.stations,
-                             j, scales, settings)};
+    PlateStripes& own = stripes[j];
+    const Line& line = own.line;
+    PlateSight& sight = sights[j];
+    if (joint.parallel) {
+      for (Station& station : stations[j].list)
+        station.along = line.along(joint.line.at(station.along));
+      sight.height = own.plate.plane.normal.dot(line.point - joint.line.point);
+    } else {
+      sight.seam = stripes[1 - j].bend.times(1 / own.other.plane.normal.dot(own.away));
+    }
+    sight.line = line, sight.bend = own.bend;
+    sight.evidence = plate_evidence(cloud, own, stations[j], j, scales, settings);
   }
   return sights;
 }
@@ -73,9 +91,14 @@ SeamEnd end_at(const Joint& joint, const std::array<PlateSight, 2>& sights, Seam
   std::array<FootLikelihood, 2> plates;
   for (int j = 0; j < 2; ++j) {
     // On the plate's own line, where it lies beside the seam's.
+    const PlateSight& sight = sights[j];
     PlaceGrid own = grid;
-    own.first += outward * (sights[j].line.along(joint.line.at(end.along)) - end.along);
-    plates[j] = foot_likelihood(sights[j].evidence[begin ? 0 : 1], own, settings.edge_slope());
+    const double place = sight.own(joint.line, end.along);
+    own.first += outward * (place - end.along);
+    // From the seam as it is bent there, and square to it.
+    plates[j] = foot_likelihood(
+        beside_seam(sight.evidence[begin ? 0 : 1], sight.seam.at(place)), own,
+        {-outward * sight.seam.slope_at(place), settings.edge_slope()});
   }
   const std::vector<EndMode> modes = seam_end_modes(plates, grid);
   if (modes.empty()) {

@@ -18,6 +18,11 @@ struct PlateBend {
     const double x = along - origin;
     return height + slope * x + curvature * x * x;
   }
+  double slope_at(double along) const { return slope + 2 * curvature * (along - origin); }
+  // All of it so many times.
+  PlateBend times(double factor) const {
+    return {origin, factor * height, factor * slope, factor * curvature};
+  }
   bool bent() const { return height != 0 || slope != 0 || curvature != 0; }
 };
 
