@@ -11,7 +11,8 @@ namespace {
 
 constexpr std::size_t kCalibrations = 4;         // kept, by id
 constexpr std::int64_t kRepetition = 1'000'000;  // us
-constexpr std::size_t kMostPoints = 1'000'000;   // of all backgrounds in memory but the newest
+// Of all backgrounds in memory but the newest.
+constexpr std::size_t kMostBackgroundPoints = 1'000'000;
 
 }  // namespace
 
@@ -103,8 +104,8 @@ void SeamFindingApp::remember(const CollectedScan& scan) {
   std::size_t points = 0, kept = 0;
   for (auto one = backgrounds_.rbegin(); one != backgrounds_.rend(); ++one) {
     points += (*one)->points();
-    if (kept > 0 &&
-        (points > kMostPoints || kept >= static_cast<std::size_t>(settings_.backgrounds_kept)))
+    if (kept > 0 && (points > kMostBackgroundPoints ||
+                     kept >= static_cast<std::size_t>(settings_.backgrounds_kept)))
       break;
     ++kept;
   }

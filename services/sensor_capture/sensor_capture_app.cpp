@@ -17,7 +17,6 @@ constexpr std::int64_t kPreviewPeriod = 500'000;
 constexpr std::int64_t kScanStatePeriod = 200'000;
 constexpr std::int64_t kErrorIsTold = 10'000'000;
 constexpr std::int64_t kHeldBack = 5'000;  // us that a better known clock may cost
-constexpr std::size_t kCommandsRemembered = 256;
 
 ScanOwnerSettings owner_settings(const SensorCaptureSettings& settings) {
   return {settings.longest_scan_s,

@@ -16,7 +16,7 @@
 namespace arcstart::calibration {
 namespace {
 
-constexpr std::int64_t kPeriod = 1'000'000;  // us
+constexpr std::int64_t kStatePeriod = 1'000'000;  // us
 constexpr std::size_t kCommandsRemembered = 256;
 
 PoseCaptureSettings capture_settings(const CalibrationSettings& settings) {
@@ -177,7 +177,7 @@ void CaptureSession::tick(std::int64_t now) {
     state_.activity = capture_.activity();
     changed_ = true;
   }
-  if (changed_ || now - told_ >= kPeriod || now < told_) publish(now);
+  if (changed_ || now - told_ >= kStatePeriod || now < told_) publish(now);
 }
 
 // The result lies beside the images; the cell's own file, which is read and published as any other,

@@ -48,7 +48,7 @@ SceneObject make_object(const PrintedPlate& plate) {
   return {"calibration plate", std::move(mesh), {paper_albedo, 0.05, 1, 0, 0}};
 }
 
-std::uint8_t rounded(double grey) {
+std::uint8_t grey_level(double grey) {
   return static_cast<std::uint8_t>(std::clamp(grey, 0.0, 255.0) + 0.5);
 }
 
@@ -189,7 +189,7 @@ std::vector<std::uint8_t> PlateImages::grid(const RigidTransform& T_camera_plate
       if ((Eigen::Vector2d(u, v) - glare.centre).norm() < glare.radius_px) level = 300;
       const double noise = std::sqrt(settings_.read_noise_grey * settings_.read_noise_grey +
                                      level / settings_.electrons_per_grey);
-      grey[i] = rounded(level + noise * normals[place + static_cast<std::size_t>(u)]);
+      grey[i] = grey_level(level + noise * normals[place + static_cast<std::size_t>(u)]);
     }
   }
   return grey;
@@ -206,7 +206,7 @@ std::vector<std::uint8_t> PlateImages::laser(const RigidTransform& T_camera_plat
   const double ambient = settings_.ambient_grey * exposure_us / settings_.reference_exposure_us;
   for (std::size_t i = 0; i < grey.size(); ++i)
     if (print[i] > 0 && grey[i] > ambient)
-      grey[i] = rounded(ambient + (grey[i] - ambient) * (1 + (ink_share - 1) * print[i]));
+      grey[i] = grey_level(ambient + (grey[i] - ambient) * (1 + (ink_share - 1) * print[i]));
   return grey;
 }
 

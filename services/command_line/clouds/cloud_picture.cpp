@@ -8,15 +8,17 @@
 #include <opencv2/imgcodecs.hpp>
 #include <opencv2/imgproc.hpp>
 
+#include "services/command_line/clouds/picture_text.hpp"
+
 namespace arcstart::command_line {
 namespace {
 
-constexpr int kSide = 900;   // of one view; px
-constexpr int kMargin = 50;  // px
-constexpr int kTitle = 30;   // px
+constexpr int kSide = 900;        // of one view; px
+constexpr int kCloudMargin = 50;  // px
+constexpr int kTitle = 30;        // px
 
 const cv::Scalar kBackground(150, 150, 150), kOthers(60, 160, 190), kSeam(60, 60, 255),
-    kAlternative(220, 100, 220), kTruth(255, 255, 255), kText(230, 230, 230);
+    kAlternative(220, 100, 220), kTruth(255, 255, 255), kWords(230, 230, 230);
 const std::array<cv::Scalar, 2> kPlates = {cv::Scalar(255, 150, 60), cv::Scalar(90, 210, 90)};
 
 // Parallel projection of the scene into one square of the picture.
@@ -71,7 +73,7 @@ class View {
       middle_[axis] = (low + high) / 2;
       largest = std::max(largest, high - low);
     }
-    px_per_mm_ = (kSide - 2 * kMargin) / largest;
+    px_per_mm_ = (kSide - 2 * kCloudMargin) / largest;
   }
 
   int left_;
@@ -120,17 +122,13 @@ void draw_lines(cv::Mat& image, const View& view, const CloudPicture& picture) {
   }
 }
 
-void write_text(cv::Mat& image, const std::string& text, cv::Point at, const cv::Scalar& colour) {
-  cv::putText(image, text, at, cv::FONT_HERSHEY_SIMPLEX, 0.5, colour, 1, cv::LINE_AA);
-}
-
 void draw_scale(cv::Mat& image, const View& view) {
   double length = 1000;
   while (length * view.px_per_mm() > kSide / 3.0) length /= 10;
   const cv::Point from(view.left() + 20, kTitle + kSide - 20);
   const int px = std::max(1, static_cast<int>(std::lround(length * view.px_per_mm())));
-  cv::line(image, from, from + cv::Point(px, 0), kText, 2);
-  write_text(image, fmt::format("{:g} mm", length), from + cv::Point(0, -8), kText);
+  cv::line(image, from, from + cv::Point(px, 0), kWords, 2);
+  write_text(image, fmt::format("{:g} mm", length), from + cv::Point(0, -8), kWords);
 }
 
 void draw_legend(cv::Mat& image, const CloudPicture& picture) {
@@ -161,7 +159,7 @@ void draw_cloud(const CloudPicture& picture, const std::string& path) {
     draw_scale(image, view);
   }
   cv::line(image, {kSide, kTitle}, {kSide, kSide + kTitle}, kBackground, 1);
-  write_text(image, picture.title, {12, 20}, kText);
+  write_text(image, picture.title, {12, 20}, kWords);
   draw_legend(image, picture);
   bool written = false;
   try {

@@ -10,6 +10,7 @@
 #include <utility>
 
 #include "services/command_line/clouds/cloud_picture.hpp"
+#include "services/command_line/clouds/picture_text.hpp"
 #include "services/seam_finding/answer/wording.hpp"
 #include "services/seam_finding/referee/constants.hpp"
 #include "services/seam_finding/referee/end_bounds.hpp"
@@ -35,10 +36,6 @@ constexpr double kPast = 10;              // of what is shown past a bound and a
 constexpr int kTickApart = 60;            // px, at least
 
 const cv::Scalar kPaper(35, 30, 30), kText(230, 230, 230);
-
-void write_text(cv::Mat& image, const std::string& text, cv::Point at, const cv::Scalar& colour) {
-  cv::putText(image, text, at, cv::FONT_HERSHEY_SIMPLEX, 0.5, colour, 1, cv::LINE_AA);
-}
 
 double shown_beyond(const seam_finding::EndBounds& bounds) {
   double beyond = kBeyond;

@@ -8,9 +8,6 @@
 namespace arcstart::sensor_capture {
 namespace {
 
-// Commands are repeated for some seconds; so many senders at a time there are not.
-constexpr std::size_t kCommandsRemembered = 256;
-
 std::int64_t to_us(double seconds) { return std::llround(seconds * 1e6); }
 
 }  // namespace

@@ -2,6 +2,7 @@
 // is known. A pure state machine: every time is given, nothing is sent.
 #pragma once
 
+#include <cstddef>
 #include <cstdint>
 #include <deque>
 #include <optional>
@@ -10,6 +11,9 @@
 #include "services/sensor_capture/scan/standstill.hpp"
 
 namespace arcstart::sensor_capture {
+
+// Commands are repeated for some seconds; so many senders at a time there are not.
+inline constexpr std::size_t kCommandsRemembered = 256;
 
 // What whoever asks for a scan says of it: copied on, never looked at.
 struct ScanPurpose {

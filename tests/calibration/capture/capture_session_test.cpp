@@ -27,7 +27,7 @@ const DrawnPose kTiltedY{{0, 0.5, 0}, {-48, -48, 320}};
 
 // The calibration service on a memq bus, with a camera and a robot that the test plays. Time is
 // the test's own.
-struct Cell {
+struct SessionCell {
   fs::path folder;
   std::unique_ptr<Bus> bus;
   std::unique_ptr<CalibrationApp> app;
@@ -36,19 +36,19 @@ struct Cell {
   std::int64_t now = utime_now();
   cv::Mat grid = draw_grid(kSquare), laser = draw_laser(kSquare);
 
-  Cell() {
+  SessionCell() {
     std::string name = (fs::temp_directory_path() / "arcstart_capture_XXXXXX").string();
     REQUIRE(mkdtemp(name.data()) != nullptr);
     folder = name;
     std::ofstream(folder / "my_plate.yaml") << kPlateYaml;
     start();
   }
-  ~Cell() {
+  ~SessionCell() {
     app.reset();
     fs::remove_all(folder);
   }
-  Cell(const Cell&) = delete;
-  Cell& operator=(const Cell&) = delete;
+  SessionCell(const SessionCell&) = delete;
+  SessionCell& operator=(const SessionCell&) = delete;
 
   void start() {
     app.reset();
@@ -126,7 +126,7 @@ struct Cell {
 }  // namespace
 
 TEST_CASE("a capture asks for both images, keeps them with the pose and judges them") {
-  Cell cell;
+  SessionCell cell;
   CHECK(cell.state.run_id == 4711);
   CHECK(cell.state.pose_count == 0);
   cell.order(calibration_command_t::CAPTURE);
@@ -146,7 +146,7 @@ TEST_CASE("a capture asks for both images, keeps them with the pose and judges t
 }
 
 TEST_CASE("what cannot be used is said at once, and what to change") {
-  Cell cell;
+  SessionCell cell;
   std::string expected;
   SECTION("no plate") {
     cell.grid = cv::Scalar(90);
@@ -183,7 +183,7 @@ TEST_CASE("what cannot be used is said at once, and what to change") {
 }
 
 TEST_CASE("poses are located, discarded and found again after a restart") {
-  Cell cell;
+  SessionCell cell;
   for (const DrawnPose& pose : {kSquare, kTiltedX, kTiltedY}) {
     cell.grid = draw_grid(pose);
     cell.laser = draw_laser(pose);
@@ -218,7 +218,7 @@ TEST_CASE("poses are located, discarded and found again after a restart") {
 }
 
 TEST_CASE("a plate that cannot be read ends the service with what to do") {
-  Cell cell;
+  SessionCell cell;
   CalibrationSettings settings;
   settings.plate = cell.folder / "none.yaml";
   settings.folder = cell.folder / "set";

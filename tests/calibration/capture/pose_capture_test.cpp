@@ -10,14 +10,14 @@ using Catch::Matchers::Contains;
 
 namespace {
 
-constexpr std::int64_t kBegin = 1'700'000'000'000'000, kPeriod = 20'000;  // us: 50 Hz
+constexpr std::int64_t kStart = 1'700'000'000'000'000, kPeriod = 20'000;  // us: 50 Hz
 const Eigen::Vector3d kPlace(900, -40, 310);
 const Eigen::Quaterniond kTurn(Eigen::AngleAxisd(2.8, Eigen::Vector3d(0.6, 0.64, 0.48)));
 
 // A cell whose camera answers after 0.15 s, and whose robot is where `place` says.
-struct Cell {
+struct PoseCell {
   PoseCapture capture{PoseCaptureSettings{}};
-  std::int64_t now = kBegin;
+  std::int64_t now = kStart;
   std::function<Eigen::Vector3d(std::int64_t)> place = [](std::int64_t) { return kPlace; };
   bool positions = true, camera = true, laser_works = true, laser_off_works = true;
   int incomplete = 0;  // so many images come without pixels
@@ -61,7 +61,7 @@ struct Cell {
 }  // namespace
 
 TEST_CASE("capture: the plate dark, the stripe lit, at the mean of the positions") {
-  Cell cell;
+  PoseCell cell;
   cell.run(0.3);
   CHECK_FALSE(cell.capture.is_running());
   cell.capture.begin(cell.now);
@@ -84,8 +84,8 @@ TEST_CASE("capture: the plate dark, the stripe lit, at the mean of the positions
 }
 
 TEST_CASE("capture: it waits until the robot has stood still for half a second") {
-  Cell cell;
-  const std::int64_t arrives = kBegin + 2'000'000;
+  PoseCell cell;
+  const std::int64_t arrives = kStart + 2'000'000;
   cell.place = [&](std::int64_t now) -> Eigen::Vector3d {
     const double left = 0.05 * 1e-3 * static_cast<double>(std::max<std::int64_t>(0, arrives - now));
     return kPlace + Eigen::Vector3d(left, 0, 0);  // 50 mm/s
@@ -99,11 +99,11 @@ TEST_CASE("capture: it waits until the robot has stood still for half a second")
 }
 
 TEST_CASE("capture: what must not become a pose fails with what to do") {
-  Cell cell;
+  PoseCell cell;
   std::string expected;
   SECTION("the robot moves between the images") {
     cell.place = [](std::int64_t now) -> Eigen::Vector3d {
-      return now < kBegin + 800'000 ? kPlace : Eigen::Vector3d(kPlace.x() + 0.5, kPlace.y(), 310);
+      return now < kStart + 800'000 ? kPlace : Eigen::Vector3d(kPlace.x() + 0.5, kPlace.y(), 310);
     };
     expected = "the robot moved";
   }
@@ -116,7 +116,7 @@ TEST_CASE("capture: what must not become a pose fails with what to do") {
   }
   SECTION("the robot never stands still") {
     cell.place = [](std::int64_t now) -> Eigen::Vector3d {
-      return kPlace + Eigen::Vector3d(0, 0, 1e-6 * static_cast<double>(now - kBegin));
+      return kPlace + Eigen::Vector3d(0, 0, 1e-6 * static_cast<double>(now - kStart));
     };
     expected = "does not stand still";
   }
@@ -145,7 +145,7 @@ TEST_CASE("capture: what must not become a pose fails with what to do") {
 }
 
 TEST_CASE("capture: an image that came incomplete is asked for again, under another id") {
-  Cell cell;
+  PoseCell cell;
   cell.incomplete = 2;
   cell.capture.begin(cell.now);
   const auto outcome = cell.run(10);
@@ -156,7 +156,7 @@ TEST_CASE("capture: an image that came incomplete is asked for again, under anot
 }
 
 TEST_CASE("capture: a failed one leaves nothing behind for the next") {
-  Cell cell;
+  PoseCell cell;
   cell.camera = false;
   cell.capture.begin(cell.now);
   const auto failed = cell.run(25);

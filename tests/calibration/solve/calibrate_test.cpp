@@ -61,7 +61,7 @@ TEST_CASE("a robot that errs is found out, and the deviation predicted fits what
   CHECK(std::sqrt(predicted / squares) < 1.6);
 }
 
-TEST_CASE("the order of the images does not matter") {
+TEST_CASE("the order of the images does not matter", "[figures]") {
   const SimulatedSet& set = well_spread_set();
   std::vector<View> views = set.said(0.1, 0.01);
   const CalibrationRun run = calibrated(set, views);
@@ -84,7 +84,7 @@ TEST_CASE("two poses exchanged are named and left out") {
   CHECK(set.end_to_end(run) < 1.5 * clean + 0.01);
 }
 
-TEST_CASE("one wrong pose is named, left out and does no harm") {
+TEST_CASE("one wrong pose is named, left out and does no harm", "[figures]") {
   const SimulatedSet& set = well_spread_set();
   std::vector<View> views = set.said(0.1, 0.01);
   const std::size_t wrong = 7;

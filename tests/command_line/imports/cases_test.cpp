@@ -105,7 +105,7 @@ void hold_against(const Case& asked, const std::string& which, std::int8_t visib
 
 }  // namespace
 
-TEST_CASE("scans of others' making are imported and answered") {
+TEST_CASE("scans of others' making are imported and answered", "[figures]") {
   if (!fs::is_directory(cases())) {
     WARN("skipped: " << cases() << " is not there; set ARCSTART_DATA");
     return;

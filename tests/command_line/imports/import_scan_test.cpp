@@ -64,7 +64,8 @@ std::vector<ReplayedSeam> import_and_replay(const Folder& folder, const Imported
 
 }  // namespace
 
-TEST_CASE("a scan from files gives the answer of the recording it came from, in every writing") {
+TEST_CASE("a scan from files gives the answer of the recording it came from, in every writing",
+          "[figures]") {
   const Folder original;
   const ReplayResult recorded = replay_recordings({original.save("cell.lcm", events())});
   REQUIRE(recorded.seams.size() == 2);

@@ -11,7 +11,7 @@ using namespace arcstart::extraction;
 
 namespace {
 
-constexpr double kWidth = 1.8;
+constexpr double kLineSigma = 1.8;
 
 struct Sides {
   double u0, v0, u1, v1, amplitude;
@@ -29,7 +29,7 @@ struct Drawing {
   std::vector<Sides> stripe, others;
   bool down = false;
   int width = 800, height = 400;
-  double line = kWidth;  // sigma; px
+  double line = kLineSigma;  // sigma; px
 
   cv::Mat grey(double noise = 2) const {
     cv::Mat light = darkness(width, height);
@@ -197,7 +197,7 @@ TEST_CASE("blobs and short streaks draw the stripe nowhere") {
   drawing.stripe = {{-5, 200, 350, 210, 100}, {410, 212, 805, 223, 100}};
   cv::Mat light = darkness(drawing.width, drawing.height);
   for (const Sides& s : drawing.stripe)
-    add_stripe(light, s.u0, s.v0, s.u1, s.v1, s.amplitude, kWidth);
+    add_stripe(light, s.u0, s.v0, s.u1, s.v1, s.amplitude, kLineSigma);
   const auto add_blob = [&](double u, double v, double a, double b) {
     for (int row = 0; row < light.rows; ++row)
       for (int column = 0; column < light.cols; ++column)

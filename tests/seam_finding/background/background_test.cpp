@@ -45,7 +45,8 @@ Pair scan_pair(const ScanChoice& of_empty, const ScanChoice& of_work, std::uint6
 
 }  // namespace
 
-TEST_CASE("surface rule: table left and workpiece lost, whatever thinning, speed and phase") {
+TEST_CASE("surface rule: table left and workpiece lost, whatever thinning, speed and phase",
+          "[figures]") {
   // Thinning M, way between stripes at 14 frames a second: 50, 10 and 25 mm/s.
   const auto [downsample, pitch] = GENERATE(table<int, double>(
       {{1, 3.6}, {5, 3.6}, {15, 3.6}, {20, 3.6}, {15, 0.72}, {5, 0.72}, {15, 1.8}, {20, 1.8}}));

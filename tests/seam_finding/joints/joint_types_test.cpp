@@ -55,7 +55,7 @@ double along_deviation(const Eigen::Matrix3d& covariance, const Eigen::Vector3d&
 
 }  // namespace
 
-TEST_CASE("each joint is found as what it is, with both its ends") {
+TEST_CASE("each joint is found as what it is, with both its ends", "[figures]") {
   struct Row {
     std::string joint, asked;
     double angle_deg, lateral;  // lateral: most; mm

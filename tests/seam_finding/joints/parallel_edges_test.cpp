@@ -62,7 +62,7 @@ TEST_CASE("a groove is one though its tops differ by more than a mismatch may") 
     }
 }
 
-TEST_CASE("a groove whose tops differ is no lap") {
+TEST_CASE("a groove whose tops differ is no lap", "[figures]") {
   for (const double raised : {-1.8, 1.8})
     for (int seed = 1; seed <= seeds; ++seed) {
       INFO("seed " << seed << ", raised by " << raised << " mm");

@@ -21,7 +21,8 @@ constexpr int seeds = 5;
 
 }  // namespace
 
-TEST_CASE("plates side by side at unlike heights are parted, though one plane lies near both") {
+TEST_CASE("plates side by side at unlike heights are parted, though one plane lies near both",
+          "[figures]") {
   const double raised = GENERATE(-0.7, -0.4, 0.4, 0.7);
   int right = 0;
   for (int seed = 1; seed <= seeds; ++seed) {

@@ -67,7 +67,8 @@ double root_mean_square(double reflection, double moves, Height&& height) {
   return std::sqrt(squares / kScans);
 }
 
-TEST_CASE("a reflection that follows the stripe for a way hardly lifts the plate at the seam") {
+TEST_CASE("a reflection that follows the stripe for a way hardly lifts the plate at the seam",
+          "[figures]") {
   for (const double moves : {0.02, 0.03, 0.04}) {
     CAPTURE(moves);
     CHECK(root_mean_square(0.2, moves, least_squares_at_seam) > 0.028);
