@@ -86,6 +86,9 @@ struct EndConstants {
 
   // Both plates.
 
+  // mm; a narrower root gap cannot be told from none - reflections in the corner: README, figures.
+  double least_gap = 0.7;
+
   // Share of joints whose plates end together, and the mm over which the others' ends scatter about
   // each other - bench.
   double flush_share = 0.3, offsets = 40;

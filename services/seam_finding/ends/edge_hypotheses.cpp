@@ -19,8 +19,9 @@ double variance_of(const EdgeCrossing& edge, double slope, double roughness) {
   const double leaves = leaving(edge, slope);
   const double light =
       kEnds.light_deviation + kEnds.flat_deviation * std::max(0.0, kEnds.flat_crossing - leaves);
-  return square(edge.deviation) + square(leaves * edge.spread) + square(edge.ended ? light * edge.pixel : 0) +
-         square(roughness) + square(kEnds.least_place_noise);
+  return square(edge.deviation) + square(leaves * edge.spread) +
+         square(edge.ended ? light * edge.pixel : 0) + square(roughness) +
+         square(kEnds.least_place_noise);
 }
 
 namespace {
@@ -73,9 +74,8 @@ std::vector<Told> slopes_told(const std::vector<StripeEvidence>& evidence, const
       const double apart = b->away - a->away;
       if (std::abs(apart) < kEnds.direction_base) continue;
       const double slope = (b->along - a->along) / apart, foot = a->along - slope * a->away;
-      if (std::abs(slope) > kEnds.steepest || foot < grid.first ||
-          foot > grid.at(grid.count - 1) || leaving(*a, slope) < kEnds.least_slant ||
-          leaving(*b, slope) < kEnds.least_slant)
+      if (std::abs(slope) > kEnds.steepest || foot < grid.first || foot > grid.at(grid.count - 1) ||
+          leaving(*a, slope) < kEnds.least_slant || leaving(*b, slope) < kEnds.least_slant)
         continue;
       double w = 0, r = 0, t = 0, rr = 0, rt = 0;
       for (const EdgeCrossing* edge : edges) {

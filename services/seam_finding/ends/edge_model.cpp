@@ -15,10 +15,8 @@ class EdgeModel::Steps {
   explicit Steps(const PlaceGrid& grid)
       : grid_(grid), change_(static_cast<std::size_t>(grid.count) + 1) {}
 
-  // Of all places farther out. What holds of the whole grid tells nothing.
-  void add_beyond(double from, double log) {
-    if (from > grid_.first) change_[index(from)] += log;
-  }
+  // Of all places farther out. What holds of the whole grid tells one slope from another.
+  void add_beyond(double from, double log) { change_[index(from)] += log; }
   // Of all places farther in.
   void add_before(double to, double log) {
     everywhere_ += log;

@@ -232,7 +232,8 @@ std::array<std::vector<StripeEvidence>, 2> plate_evidence(const ScanCloud& cloud
       StripeEvidence evidence;
       evidence.covered = seen.covered;
       const double slant = outward * stations.slant[plate];
-      if (!seen.shown) evidence.absent = PlacePart{outward * station.along + slant * beside, beside};
+      if (!seen.shown)
+        evidence.absent = PlacePart{outward * station.along + slant * beside, beside};
       for (const Stretch& on : seen.on) evidence.on.push_back(moved(on, outward, -slack));
       for (const Stretch& off : seen.off) {
         evidence.off.push_back(moved(off, outward, slack));
@@ -241,7 +242,7 @@ std::array<std::vector<StripeEvidence>, 2> plate_evidence(const ScanCloud& cloud
       }
       for (const EdgeCrossing& edge : seen.edges) {
         evidence.edges.push_back(toward(edge, outward, settings.edge_shortening_px));
-        evidence.covered |= edge.occluded;
+        evidence.covered |= edge.occluded && evidence.edges.back().way_along > 0;
       }
       both[side == SeamSide::kEnd].push_back(std::move(evidence));
     }

@@ -9,6 +9,8 @@
 #include "services/seam_finding/ends/end_distribution.hpp"
 #include "services/seam_finding/ends/foot_likelihood.hpp"
 #include "services/seam_finding/ends/plate_evidence.hpp"
+#include "services/seam_finding/fit/order_statistics.hpp"
+#include "services/seam_finding/gaps/root_gap.hpp"
 
 namespace arcstart::seam_finding {
 namespace {
@@ -16,8 +18,9 @@ namespace {
 // What the scan shows of a plate's ends, along its line.
 struct PlateSight {
   Line line;
-  PlateBend bend, seam;  // of the plate, and of the seam in it
-  double height = 0;     // over the seam, of its line; mm
+  PlateBend bend, seam;                      // of the plate, and of the seam in it
+  double height = 0;                         // over the seam, of its line; mm
+  std::vector<std::optional<RootGap>> gaps;  // of each stripe, where it stands off the other plate
   std::array<std::vector<StripeEvidence>, 2> evidence;  // toward the begin and the end
 
   // Places of the seam on the plate's own line.
@@ -27,6 +30,22 @@ struct PlateSight {
     return place - height * bend.slope_at(place);
   }
 };
+
+// So far from the seam the foot of a plate lies that stands off the other, near an end; where that
+// cannot be told from none, between none and what is measured.
+RootGap gap_near(const std::vector<std::optional<RootGap>>& gaps, const Stations& stations,
+                 double end) {
+  std::vector<double> widths, deviations;
+  for (const Station& station : stations.list) {
+    if (gaps.empty() || station.stripe < 0 || std::abs(station.along - end) > kModel.beside_seam)
+      continue;
+    if (const auto& gap = gaps[station.stripe])
+      widths.push_back(gap->width), deviations.push_back(gap->deviation);
+  }
+  if (static_cast<int>(widths.size()) < kModel.stripes_in_a_row) return {};
+  const RootGap told{median(widths), median(deviations)};
+  return told.width < kEnds.least_gap ? RootGap{told.width / 2, told.width / 2} : told;
+}
 
 std::array<PlateSight, 2> sights_of(const ScanCloud& cloud, const Joint& joint,
                                     const Scales& scales, const SeamFindingSettings& settings) {
@@ -47,6 +66,9 @@ std::array<PlateSight, 2> sights_of(const ScanCloud& cloud, const Joint& joint,
         station.along = line.along(joint.line.at(station.along));
       sight.height = own.plate.plane.normal.dot(line.point - joint.line.point);
     } else {
+      // A corner's outer edges are no plates' feet.
+      if (joint.type != JointType::kOutsideCorner)
+        sight.gaps = root_gaps(cloud, joint.plates, joint.line, j);
       sight.seam = stripes[1 - j].bend.times(1 / own.other.plane.normal.dot(own.away));
     }
     sight.line = line, sight.bend = own.bend;
@@ -88,6 +110,10 @@ SeamEnd end_at(const Joint& joint, const std::array<PlateSight, 2>& sights, Seam
   grid.step = kEnds.grid_step;
   grid.first = outward * end.along - std::min(half, kEnds.inside);
   grid.count = static_cast<int>((outward * end.along + kEnds.outside - grid.first) / grid.step);
+  std::array<RootGap, 2> gaps;
+  for (int j = 0; j < 2; ++j)
+    gaps[j] = gap_near(sights[j].gaps, joint.coverage.stations, end.along);
+  gaps[gaps[0].width > gaps[1].width ? 1 : 0] = {};  // one stands off
   std::array<FootLikelihood, 2> plates;
   for (int j = 0; j < 2; ++j) {
     // On the plate's own line, where it lies beside the seam's.
@@ -95,10 +121,12 @@ SeamEnd end_at(const Joint& joint, const std::array<PlateSight, 2>& sights, Seam
     PlaceGrid own = grid;
     const double place = sight.own(joint.line, end.along);
     own.first += outward * (place - end.along);
-    // From the seam as it is bent there, and square to it.
-    plates[j] = foot_likelihood(
-        beside_seam(sight.evidence[begin ? 0 : 1], sight.seam.at(place)), own,
-        {-outward * sight.seam.slope_at(place), settings.edge_slope()});
+    // From the seam as it is bent there, and square to it; a plate that stands off it ends there
+    // where its foot does.
+    const double seam_away = sight.seam.at(place) + gaps[j].width;
+    plates[j] = foot_likelihood(beside_seam(sight.evidence[begin ? 0 : 1], seam_away), own,
+                                {-outward * sight.seam.slope_at(place), settings.edge_slope()});
+    plates[j].deviation = std::hypot(plates[j].deviation, plates[j].slope * gaps[j].deviation);
   }
   const std::vector<EndMode> modes = seam_end_modes(plates, grid);
   if (modes.empty()) {
