@@ -59,6 +59,7 @@ class Collector {
     const int step = every(kEnds.looked_behind, stripe);
     int last = -1;
     for (int i = stripe.first; i < stripe.first + stripe.count; i += step) {
+      if (height_over(stripes_, cloud_.points[i]) >= -tolerance_) continue;
       const auto through = seen_through(cloud_, stripes_, i, tolerance_);
       if (!through) continue;
       const PlacePart place = part(*through);
