@@ -81,9 +81,9 @@ std::vector<Told> slopes_told(const std::vector<StripeEvidence>& evidence, const
       for (const EdgeCrossing* edge : edges) {
         if (leaving(*edge, slope) < kEnds.least_slant) continue;
         if (std::abs(edge->along - foot - slope * edge->away) >
-            kEnds.agree + 2 * std::sqrt(variance_of(*edge, slope, 0)))
+            kFit.outlier * std::sqrt(variance_of(*edge, slope, kEnds.roughness[1].first)))
           continue;
-        const double weight = 1 / variance_of(*edge, slope, kEnds.told_noise);
+        const double weight = 1 / variance_of(*edge, slope, kEnds.grid_step);
         w += weight, r += weight * edge->away, t += weight * edge->along;
         rr += weight * edge->away * edge->away, rt += weight * edge->away * edge->along;
       }

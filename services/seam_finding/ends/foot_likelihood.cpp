@@ -45,7 +45,7 @@ FootLikelihood of_straight_edge(const std::vector<StripeEvidence>& evidence, con
   likelihood.slope = best_slope;
   likelihood.occluded =
       told.occluded >= kEnds.outline_stripes && 2 * told.occluded > told.crossings;
-  likelihood.deviation = std::hypot(kEnds.edge_floor, told.common);
+  likelihood.deviation = told.common;
   return likelihood;
 }
 

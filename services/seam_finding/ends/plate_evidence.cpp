@@ -27,7 +27,7 @@ class Collector {
       : cloud_(cloud),
         stripes_(stripes),
         tolerance_(tolerance),
-        far_(std::min(kVisibility.farthest, stripes.reach) - kVisibility.far_edge) {}
+        far_(std::min(kVisibility.farthest, stripes.reach) - kVisibility.near_seam) {}
 
   PlacePart part(const Eigen::Vector3d& point) const {
     return {stripes_.line.along(point), stripes_.away.dot(point - stripes_.line.point)};
@@ -204,7 +204,7 @@ std::array<std::vector<StripeEvidence>, 2> plate_evidence(const ScanCloud& cloud
   // What lies nearer to the seam is where a stripe turns to the other plate; what lies farther is
   // the plate's other edge, along the seam.
   const double near = collector.begin() + kVisibility.near_seam;
-  const double far = stripes.reach - kVisibility.far_edge;
+  const double far = stripes.reach - kVisibility.near_seam;
   const double beside = stations.list.empty() || stations.list.front().stripe < 0 ? 0 : near;
   // The plate is there at least so far before what it is seen by, and is not beyond.
   const double slack = kVisibility.beam * scales.noise + kEnds.half_stripe;
