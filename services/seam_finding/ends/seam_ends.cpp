@@ -60,8 +60,7 @@ std::array<PlateSight, 2> sights_of(const ScanCloud& cloud, const Joint& joint,
 
 using Gaps = std::vector<std::optional<RootGap>>;
 
-// So far from the seam the foot of a plate lies that stands off the other, near an end; where that
-// cannot be told from none, between none and what is measured.
+// So far from the seam the foot of a plate lies that stands off the other, near an end.
 RootGap gap_near(const Gaps& gaps, const Stations& stations, double end) {
   std::vector<double> widths, deviations;
   for (const Station& station : stations.list) {
@@ -70,8 +69,7 @@ RootGap gap_near(const Gaps& gaps, const Stations& stations, double end) {
       widths.push_back(gap->width), deviations.push_back(gap->deviation);
   }
   if (static_cast<int>(widths.size()) < kModel.stripes_in_a_row) return {};
-  const RootGap told{median(widths), median(deviations)};
-  return told.width < kEnds.least_gap ? RootGap{told.width / 2, told.width / 2} : told;
+  return {median(widths), median(deviations)};
 }
 
 // Of both plates, near an end; they are looked for where they move an end, and only once.
@@ -89,6 +87,9 @@ class RootGaps {
     std::array<RootGap, 2> near;
     for (int j = 0; j < 2; ++j) near[j] = gap_near((*gaps_)[j], joint_.coverage.stations, end);
     near[near[0].width > near[1].width ? 1 : 0] = {};  // one stands off
+    // What cannot be told from none mostly is none: plates touch.
+    for (RootGap& gap : near)
+      if (gap.width < kEnds.least_gap) gap = {0, gap.width / 2};
     return near;
   }
 
@@ -148,8 +149,7 @@ SeamEnd end_at(const Joint& joint, const std::array<PlateSight, 2>& sights, Root
     // A plate that stands off the seam ends there where its foot does.
     if (std::abs(plates[j].slope - square.slope) * kGaps.widest < kEnds.grid_step) continue;
     const RootGap gap = gaps.near(end.along)[j];
-    if (gap.width == 0) continue;
-    plates[j] = at_distance(gap.width);
+    if (gap.width > 0) plates[j] = at_distance(gap.width);
     plates[j].deviation = std::hypot(plates[j].deviation, plates[j].slope * gap.deviation);
   }
   const std::vector<EndMode> modes = seam_end_modes(plates, grid);

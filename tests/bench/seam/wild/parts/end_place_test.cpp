@@ -37,7 +37,9 @@ TEST_CASE("an edge that is turned away from the seam is found, whichever way it 
   WildScene scene = bare("tee");
   scene.works[0].second.begin.turn_deg = GENERATE(-28.0, 15.0, 28.0);
   INFO("turned by " << scene.works[0].second.begin.turn_deg << " deg");
-  CHECK(std::abs(start_of(scene).along) < 0.25);
+  const PlaceError start = start_of(scene);
+  CHECK(std::abs(start.along) < 0.25);
+  CHECK(start.deviation < 0.3);  // without what stripes show on their way to the seam 1.1
 }
 
 TEST_CASE("an upright that stands off ends where its foot does, however its edge is turned") {
@@ -45,7 +47,9 @@ TEST_CASE("an upright that stands off ends where its foot does, however its edge
   scene.works[0].second.begin.turn_deg = GENERATE(-25.0, 25.0);
   scene.works[0].gap_begin_mm = scene.works[0].gap_end_mm = 2;
   INFO("turned by " << scene.works[0].second.begin.turn_deg << " deg");
-  CHECK(std::abs(start_of(scene).along) < 0.35);  // 0.9 on the edge's line to the seam
+  const PlaceError start = start_of(scene);
+  CHECK(std::abs(start.along) < 0.3);  // 0.4 and more on the edge's line to the seam
+  CHECK(start.deviation < 0.5);
 }
 
 TEST_CASE("a lap of bent plates starts square below the upper plate's end") {
@@ -55,5 +59,5 @@ TEST_CASE("a lap of bent plates starts square below the upper plate's end") {
   work.first.behind_mm = 60;
   work.bow_mm = GENERATE(-1.0, 1.0);
   INFO("bent by " << work.bow_mm << " mm in 100");
-  CHECK(std::abs(start_of(scene).along) < 0.2);  // 0.5 below it along the plumb
+  CHECK(std::abs(start_of(scene).along) < 0.2);  // 0.4 plumb below it
 }
