@@ -205,7 +205,8 @@ std::array<std::vector<StripeEvidence>, 2> plate_evidence(const ScanCloud& cloud
   // the plate's other edge, along the seam.
   const double near = collector.begin() + kVisibility.near_seam;
   const double far = stripes.reach - kVisibility.near_seam;
-  const double beside = stations.list.empty() || stations.list.front().stripe < 0 ? 0 : near;
+  // So much of it beside the seam would be seen.
+  const double beside = cloud.organised() ? near - kVisibility.near_seam / 2 : 0;
   // The plate is there at least so far before what it is seen by, and is not beyond.
   const double slack = kVisibility.beam * scales.noise + kEnds.half_stripe;
 
