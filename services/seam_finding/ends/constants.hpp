@@ -39,12 +39,8 @@ struct EndConstants {
 
   // A plate's edge.
 
-  // mm; places on one edge agree so well along the seam - bench.
-  double agree = 0.35;
   // mm; standard deviation of a place along the seam, at least - bench.
   double least_place_noise = 0.015;
-  // mm; standard deviation of an edge, whatever the number of its places - bench.
-  double edge_floor = 0.01;
   // px square to the edge; what all its places have in common: light ends over edges in many ways -
   // bench.
   double common_deviation = 0.1;
@@ -56,8 +52,6 @@ struct EndConstants {
   int slanted_steps = 10;
   // Slopes told by crossings that are looked at, at most - bench.
   std::size_t most_told = 2;
-  // mm; standard deviation of a place along the seam by which a slope is told - bench.
-  double told_noise = 0.05;
   // mm; standard deviations by which an edge is rough (milled, sheared, cut by flame), and their
   // shares - bench: wild.
   std::array<std::pair<double, double>, 3> roughness = {std::pair{0.0, 0.6}, std::pair{0.12, 0.25},
@@ -72,19 +66,24 @@ struct EndConstants {
 
   // Something behind the plate: a reflection, or a hole in it - bench.
   double seen_past = 0.03;
-  // Nothing of the plate at the seam; and where something stands that may hide it - bench.
-  double absent = 0.02, absent_covered = 0.97;
+  // By an accident without a name: nothing of the plate at the seam, another thing in its plane, an
+  // end on the plate where light falls on something behind it - bench.
+  double accident = 0.02;
+  // Nothing of the plate where something stands that may hide it - bench.
+  double absent_covered = 0.97;
   // The less likely of the two, if a stripe shows both - bench.
   double second_witness = 0.5;
-  // A stripe that ends on the plate; where light falls on something behind it; and where something
-  // stands that may hide it - bench.
-  double ends_early = 0.1, ends_falling = 0.02, ends_covered = 0.7;
+  // A stripe that ends on the plate; and where something stands that may hide it - bench.
+  double ends_early = 0.1, ends_covered = 0.7;
   // mm; over which such ends lie, all places alike - what is seen about an end.
   double way_seen = 30;
-  // Another thing in the plate's plane; and behind a place that is seen past - bench.
-  double on_other = 0.02, on_thing = 0.3;
+  // Another thing in the plate's plane behind a place that is seen past - bench.
+  double on_thing = 0.3;
 
   // Both plates.
+
+  // mm; a narrower root gap cannot be told from none - reflections in the corner: README, figures.
+  double least_gap = 0.7;
 
   // Share of joints whose plates end together, and the mm over which the others' ends scatter about
   // each other - bench.

@@ -19,8 +19,9 @@ double variance_of(const EdgeCrossing& edge, double slope, double roughness) {
   const double leaves = leaving(edge, slope);
   const double light =
       kEnds.light_deviation + kEnds.flat_deviation * std::max(0.0, kEnds.flat_crossing - leaves);
-  return square(edge.deviation) + square(leaves * edge.spread) + square(edge.ended ? light * edge.pixel : 0) +
-         square(roughness) + square(kEnds.least_place_noise);
+  return square(edge.deviation) + square(leaves * edge.spread) +
+         square(edge.ended ? light * edge.pixel : 0) + square(roughness) +
+         square(kEnds.least_place_noise);
 }
 
 namespace {
@@ -73,17 +74,16 @@ std::vector<Told> slopes_told(const std::vector<StripeEvidence>& evidence, const
       const double apart = b->away - a->away;
       if (std::abs(apart) < kEnds.direction_base) continue;
       const double slope = (b->along - a->along) / apart, foot = a->along - slope * a->away;
-      if (std::abs(slope) > kEnds.steepest || foot < grid.first ||
-          foot > grid.at(grid.count - 1) || leaving(*a, slope) < kEnds.least_slant ||
-          leaving(*b, slope) < kEnds.least_slant)
+      if (std::abs(slope) > kEnds.steepest || foot < grid.first || foot > grid.at(grid.count - 1) ||
+          leaving(*a, slope) < kEnds.least_slant || leaving(*b, slope) < kEnds.least_slant)
         continue;
       double w = 0, r = 0, t = 0, rr = 0, rt = 0;
       for (const EdgeCrossing* edge : edges) {
         if (leaving(*edge, slope) < kEnds.least_slant) continue;
         if (std::abs(edge->along - foot - slope * edge->away) >
-            kEnds.agree + 2 * std::sqrt(variance_of(*edge, slope, 0)))
+            kFit.outlier * std::sqrt(variance_of(*edge, slope, kEnds.roughness[1].first)))
           continue;
-        const double weight = 1 / variance_of(*edge, slope, kEnds.told_noise);
+        const double weight = 1 / variance_of(*edge, slope, kEnds.grid_step);
         w += weight, r += weight * edge->away, t += weight * edge->along;
         rr += weight * edge->away * edge->away, rt += weight * edge->away * edge->along;
       }

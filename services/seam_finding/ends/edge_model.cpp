@@ -15,10 +15,8 @@ class EdgeModel::Steps {
   explicit Steps(const PlaceGrid& grid)
       : grid_(grid), change_(static_cast<std::size_t>(grid.count) + 1) {}
 
-  // Of all places farther out. What holds of the whole grid tells nothing.
-  void add_beyond(double from, double log) {
-    if (from > grid_.first) change_[index(from)] += log;
-  }
+  // Of all places farther out. What holds of the whole grid tells one slope from another.
+  void add_beyond(double from, double log) { change_[index(from)] += log; }
   // Of all places farther in.
   void add_before(double to, double log) {
     everywhere_ += log;
@@ -50,7 +48,7 @@ double foot(const EdgeCrossing& edge, double slope) { return edge.along - slope 
 // farther out, and the stripe ends for another reason; or farther in, and this is another thing's.
 double density_before(const EdgeCrossing& edge, bool covered) {
   const double share = covered      ? kEnds.ends_covered
-                       : edge.falls ? kEnds.ends_falling
+                       : edge.falls ? kEnds.accident
                                     : kEnds.ends_early;
   return std::log(share / kEnds.way_seen);
 }
@@ -86,7 +84,7 @@ EdgeModel::EdgeModel(const std::vector<StripeEvidence>& evidence, const PlaceGri
 std::vector<double> EdgeModel::steps(double slope) const {
   Steps log(grid_);
   for (const StripeEvidence& stripe : evidence_) {
-    const double absent = std::log(stripe.covered ? kEnds.absent_covered : kEnds.absent);
+    const double absent = std::log(stripe.covered ? kEnds.absent_covered : kEnds.accident);
     const double past = std::log(kEnds.seen_past);
     const auto off = innermost_off(stripe, slope);
     if (stripe.absent) log.add_beyond(foot(*stripe.absent, slope), absent);
@@ -166,12 +164,12 @@ void EdgeModel::add_on(const StripeEvidence& stripe, double slope, Steps& log) c
   const auto farthest = farthest_on(stripe, slope, std::numeric_limits<double>::infinity());
   if (!farthest || foot(*farthest, slope) < grid_.first) return;
   const double place = foot(*farthest, slope);
-  log.add_before(place, std::log(kEnds.on_other));
+  log.add_before(place, std::log(kEnds.accident));
   const auto past = seen_past_before(place, farthest->away, slope);
   if (!past) return;
-  log.add_before(*past, std::log(kEnds.on_thing / kEnds.on_other));
+  log.add_before(*past, std::log(kEnds.on_thing / kEnds.accident));
   if (const auto before = farthest_on(stripe, slope, *past))
-    log.add_before(foot(*before, slope), std::log(kEnds.on_other / kEnds.on_thing));
+    log.add_before(foot(*before, slope), std::log(kEnds.accident / kEnds.on_thing));
 }
 
 }  // namespace arcstart::seam_finding

@@ -42,10 +42,10 @@ FootLikelihood of_straight_edge(const std::vector<StripeEvidence>& evidence, con
     }
   }
   const EdgeTold told = model.told_at(grid.at(best_place), best_slope, best_roughness);
-  likelihood.crossings = told.crossings;
+  likelihood.slope = best_slope;
   likelihood.occluded =
       told.occluded >= kEnds.outline_stripes && 2 * told.occluded > told.crossings;
-  likelihood.deviation = std::hypot(kEnds.edge_floor, told.common);
+  likelihood.deviation = told.common;
   return likelihood;
 }
 
@@ -84,9 +84,8 @@ std::vector<StripeEvidence> between(const std::vector<StripeEvidence>& evidence,
 // What lies between tells nothing of either.
 void add_coped(const std::vector<StripeEvidence>& evidence, const std::vector<double>& near,
                const PlaceGrid& grid, const SquareEdge& square, FootLikelihood& likelihood) {
-  const auto far =
-      of_straight_edge(between(evidence, kEnds.cope_most, std::numeric_limits<double>::infinity()),
-                       grid, square);
+  const auto far = of_straight_edge(
+      between(evidence, kEnds.cope_most, std::numeric_limits<double>::infinity()), grid, square);
   const auto reach = static_cast<std::size_t>(kEnds.cope_most / grid.step);
   double prior = std::log(kEnds.coped_share / kEnds.cope_most * grid.step) + far.scale;
   for (const StripeEvidence& stripe : evidence)

@@ -27,7 +27,7 @@ class Collector {
       : cloud_(cloud),
         stripes_(stripes),
         tolerance_(tolerance),
-        far_(std::min(kVisibility.farthest, stripes.reach) - kVisibility.far_edge) {}
+        far_(std::min(kVisibility.farthest, stripes.reach) - kVisibility.near_seam) {}
 
   PlacePart part(const Eigen::Vector3d& point) const {
     return {stripes_.line.along(point), stripes_.away.dot(point - stripes_.line.point)};
@@ -59,6 +59,7 @@ class Collector {
     const int step = every(kEnds.looked_behind, stripe);
     int last = -1;
     for (int i = stripe.first; i < stripe.first + stripe.count; i += step) {
+      if (height_over(stripes_, cloud_.points[i]) >= -tolerance_) continue;
       const auto through = seen_through(cloud_, stripes_, i, tolerance_);
       if (!through) continue;
       const PlacePart place = part(*through);
@@ -203,8 +204,9 @@ std::array<std::vector<StripeEvidence>, 2> plate_evidence(const ScanCloud& cloud
   // What lies nearer to the seam is where a stripe turns to the other plate; what lies farther is
   // the plate's other edge, along the seam.
   const double near = collector.begin() + kVisibility.near_seam;
-  const double far = stripes.reach - kVisibility.far_edge;
-  const double beside = stations.list.empty() || stations.list.front().stripe < 0 ? 0 : near;
+  const double far = stripes.reach - kVisibility.near_seam;
+  // So much of it beside the seam would be seen.
+  const double beside = cloud.organised() ? near - kVisibility.near_seam / 2 : 0;
   // The plate is there at least so far before what it is seen by, and is not beyond.
   const double slack = kVisibility.beam * scales.noise + kEnds.half_stripe;
 
@@ -232,7 +234,8 @@ std::array<std::vector<StripeEvidence>, 2> plate_evidence(const ScanCloud& cloud
       StripeEvidence evidence;
       evidence.covered = seen.covered;
       const double slant = outward * stations.slant[plate];
-      if (!seen.shown) evidence.absent = PlacePart{outward * station.along + slant * beside, beside};
+      if (!seen.shown)
+        evidence.absent = PlacePart{outward * station.along + slant * beside, beside};
       for (const Stretch& on : seen.on) evidence.on.push_back(moved(on, outward, -slack));
       for (const Stretch& off : seen.off) {
         evidence.off.push_back(moved(off, outward, slack));
@@ -241,7 +244,7 @@ std::array<std::vector<StripeEvidence>, 2> plate_evidence(const ScanCloud& cloud
       }
       for (const EdgeCrossing& edge : seen.edges) {
         evidence.edges.push_back(toward(edge, outward, settings.edge_shortening_px));
-        evidence.covered |= edge.occluded;
+        evidence.covered |= edge.occluded && evidence.edges.back().way_along > 0;
       }
       both[side == SeamSide::kEnd].push_back(std::move(evidence));
     }

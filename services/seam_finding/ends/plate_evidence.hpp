@@ -24,12 +24,12 @@ struct PlacePart {
 using Stretch = std::array<PlacePart, 2>;
 
 struct StripeEvidence {
-  std::vector<Stretch> on;           // the plate is seen there
-  std::vector<Stretch> off;          // what lies behind it is: there is none
+  std::vector<Stretch> on;          // the plate is seen there
+  std::vector<Stretch> off;         // what lies behind it is: there is none
   std::vector<EdgeCrossing> edges;  // where it leaves the plate, two at most; along: outward, too
   // Where it shows no plate beside the seam: so far from it that others do.
   std::optional<PlacePart> absent;
-  bool covered = false;          // something stands before both plates where it crosses the seam
+  bool covered = false;  // something stands before both plates where it crosses the seam
 };
 
 // Toward the begin and toward the end. `stations` say whether the plate is there at the seam; their

@@ -9,6 +9,9 @@
 #include "services/seam_finding/ends/end_distribution.hpp"
 #include "services/seam_finding/ends/foot_likelihood.hpp"
 #include "services/seam_finding/ends/plate_evidence.hpp"
+#include "services/seam_finding/fit/order_statistics.hpp"
+#include "services/seam_finding/gaps/constants.hpp"
+#include "services/seam_finding/gaps/root_gap.hpp"
 
 namespace arcstart::seam_finding {
 namespace {
@@ -16,8 +19,8 @@ namespace {
 // What the scan shows of a plate's ends, along its line.
 struct PlateSight {
   Line line;
-  PlateBend bend, seam;  // of the plate, and of the seam in it
-  double height = 0;     // over the seam, of its line; mm
+  PlateBend bend, seam;                                 // of the plate, and of the seam in it
+  double height = 0;                                    // over the seam, of its line; mm
   std::array<std::vector<StripeEvidence>, 2> evidence;  // toward the begin and the end
 
   // Places of the seam on the plate's own line.
@@ -55,6 +58,47 @@ std::array<PlateSight, 2> sights_of(const ScanCloud& cloud, const Joint& joint,
   return sights;
 }
 
+using Gaps = std::vector<std::optional<RootGap>>;
+
+// So far from the seam the foot of a plate lies that stands off the other, near an end.
+RootGap gap_near(const Gaps& gaps, const Stations& stations, double end) {
+  std::vector<double> widths, deviations;
+  for (const Station& station : stations.list) {
+    if (station.stripe < 0 || std::abs(station.along - end) > kModel.beside_seam) continue;
+    if (const auto& gap = gaps[station.stripe])
+      widths.push_back(gap->width), deviations.push_back(gap->deviation);
+  }
+  if (static_cast<int>(widths.size()) < kModel.stripes_in_a_row) return {};
+  return {median(widths), median(deviations)};
+}
+
+// Of both plates, near an end; they are looked for where they move an end, and only once.
+class RootGaps {
+ public:
+  RootGaps(const ScanCloud& cloud, const Joint& joint) : cloud_(cloud), joint_(joint) {}
+
+  std::array<RootGap, 2> near(double end) {
+    // A corner's outer edges are no plates' feet.
+    if (joint_.parallel || joint_.type == JointType::kOutsideCorner || !cloud_.organised())
+      return {};
+    if (!gaps_)
+      gaps_ = {root_gaps(cloud_, joint_.plates, joint_.line, 0),
+               root_gaps(cloud_, joint_.plates, joint_.line, 1)};
+    std::array<RootGap, 2> near;
+    for (int j = 0; j < 2; ++j) near[j] = gap_near((*gaps_)[j], joint_.coverage.stations, end);
+    near[near[0].width > near[1].width ? 1 : 0] = {};  // one stands off
+    // What cannot be told from none mostly is none: plates touch.
+    for (RootGap& gap : near)
+      if (gap.width < kEnds.least_gap) gap = {0, gap.width / 2};
+    return near;
+  }
+
+ private:
+  const ScanCloud& cloud_;
+  const Joint& joint_;
+  std::optional<std::array<Gaps, 2>> gaps_;
+};
+
 EndVisibility visibility_of(const std::array<FootLikelihood, 2>& plates,
                             const std::vector<EndMode>& modes, const Scales& scales) {
   if (modes[0].weight < 1 - kEnds.never) return EndVisibility::kNotDetermined;
@@ -72,8 +116,8 @@ double whole_variance(const std::vector<EndMode>& modes) {
   return variance;
 }
 
-SeamEnd end_at(const Joint& joint, const std::array<PlateSight, 2>& sights, SeamSide side,
-               const Scales& scales, const SeamFindingSettings& settings) {
+SeamEnd end_at(const Joint& joint, const std::array<PlateSight, 2>& sights, RootGaps& gaps,
+               SeamSide side, const Scales& scales, const SeamFindingSettings& settings) {
   const bool begin = side == SeamSide::kBegin;
   const double outward = begin ? -1 : 1;
   SeamEnd end;
@@ -96,9 +140,17 @@ SeamEnd end_at(const Joint& joint, const std::array<PlateSight, 2>& sights, Seam
     const double place = sight.own(joint.line, end.along);
     own.first += outward * (place - end.along);
     // From the seam as it is bent there, and square to it.
-    plates[j] = foot_likelihood(
-        beside_seam(sight.evidence[begin ? 0 : 1], sight.seam.at(place)), own,
-        {-outward * sight.seam.slope_at(place), settings.edge_slope()});
+    const SquareEdge square{-outward * sight.seam.slope_at(place), settings.edge_slope()};
+    const auto at_distance = [&](double away) {
+      return foot_likelihood(
+          beside_seam(sight.evidence[begin ? 0 : 1], sight.seam.at(place) + away), own, square);
+    };
+    plates[j] = at_distance(0);
+    // A plate that stands off the seam ends there where its foot does.
+    if (std::abs(plates[j].slope - square.slope) * kGaps.widest < kEnds.grid_step) continue;
+    const RootGap gap = gaps.near(end.along)[j];
+    if (gap.width > 0) plates[j] = at_distance(gap.width);
+    plates[j].deviation = std::hypot(plates[j].deviation, plates[j].slope * gap.deviation);
   }
   const std::vector<EndMode> modes = seam_end_modes(plates, grid);
   if (modes.empty()) {
@@ -122,8 +174,9 @@ SeamEnd end_at(const Joint& joint, const std::array<PlateSight, 2>& sights, Seam
 std::array<SeamEnd, 2> find_seam_ends(const ScanCloud& cloud, const Joint& joint,
                                       const Scales& scales, const SeamFindingSettings& settings) {
   const auto sights = sights_of(cloud, joint, scales, settings);
-  return {end_at(joint, sights, SeamSide::kBegin, scales, settings),
-          end_at(joint, sights, SeamSide::kEnd, scales, settings)};
+  RootGaps gaps(cloud, joint);
+  return {end_at(joint, sights, gaps, SeamSide::kBegin, scales, settings),
+          end_at(joint, sights, gaps, SeamSide::kEnd, scales, settings)};
 }
 
 }  // namespace arcstart::seam_finding

@@ -9,11 +9,9 @@
 namespace arcstart::seam_finding {
 
 struct VisibilityConstants {
-  // mm; so near the seam it may be the joint's other plate that is seen, and stripes turn into it -
-  // bench.
+  // mm; so near the seam it may be the joint's other plate that is seen, and stripes turn into it;
+  // so near a plate's far edge it may be that edge that a stripe leaves it by - bench.
   double near_seam = 3;
-  // mm; so near a plate's far edge it may be that edge that a stripe leaves it by - bench.
-  double far_edge = 3;
   // A point's noise along the seam over that across its surface - bench.
   double beam = 0.5;
   // Sine of the angle between a line of sight and a plate, at least - bench.

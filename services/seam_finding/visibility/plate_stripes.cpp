@@ -48,27 +48,31 @@ double usual_reach(const ScanCloud& cloud, const PlateStripes& stripes) {
   return median(reaches);
 }
 
-}  // namespace
-
-double height_over(const PlateStripes& stripes, const Eigen::Vector3d& point) {
-  return stripes.plate.plane.signed_distance(point) - stripes.bend.at(stripes.line.along(point));
+// Where the sight to a point so deep behind a plane meets it.
+std::optional<Eigen::Vector3d> through(const ScanCloud& cloud, const Plane& plane, int point,
+                                       double depth) {
+  const Eigen::Vector3d sight = cloud.points[point] - cloud.seen_from(point);
+  const double toward = -plane.normal.dot(sight);
+  if (toward <= 0 ||
+      toward * toward < kVisibility.least_sight * kVisibility.least_sight * sight.squaredNorm())
+    return std::nullopt;
+  return cloud.points[point] - sight * (depth / toward);
 }
+
+}  // namespace
 
 std::optional<Eigen::Vector3d> seen_through(const ScanCloud& cloud, const PlateStripes& stripes,
                                             int point, double tolerance) {
-  Plane plane = stripes.plate.plane;
-  plane.offset -= stripes.bend.at(stripes.line.along(cloud.points[point]));
-  return seen_through(cloud, plane, point, tolerance);
+  const double depth = -height_over(stripes, cloud.points[point]);
+  if (depth <= tolerance) return std::nullopt;
+  return through(cloud, stripes.plate.plane, point, depth);
 }
 
 std::optional<Eigen::Vector3d> seen_through(const ScanCloud& cloud, const Plane& plane, int point,
                                             double tolerance) {
   const double depth = -plane.signed_distance(cloud.points[point]);
   if (depth <= tolerance) return std::nullopt;
-  const Eigen::Vector3d sight = (cloud.points[point] - cloud.seen_from(point)).normalized();
-  const double toward = -plane.normal.dot(sight);
-  if (toward < kVisibility.least_sight) return std::nullopt;
-  return cloud.points[point] - sight * (depth / toward);
+  return through(cloud, plane, point, depth);
 }
 
 PlateStripes plate_stripes(const ScanCloud& cloud, const JointPlate& plate, const JointPlate& other,

@@ -27,7 +27,9 @@ struct PlateStripes {
 };
 
 // Over the plate as it is bent; mm.
-double height_over(const PlateStripes& stripes, const Eigen::Vector3d& point);
+inline double height_over(const PlateStripes& stripes, const Eigen::Vector3d& point) {
+  return stripes.plate.plane.signed_distance(point) - stripes.bend.at(stripes.line.along(point));
+}
 
 // The plates must outlive what is returned.
 PlateStripes plate_stripes(const ScanCloud& cloud, const JointPlate& plate, const JointPlate& other,

@@ -2,9 +2,11 @@
 
 #include <catch2/catch.hpp>
 #include <cmath>
+#include <optional>
 #include <random>
 
 #include "services/seam_finding/coverage/stations.hpp"
+#include "services/seam_finding/ends/constants.hpp"
 #include "tests/seam_finding/support/likelihood_moments.hpp"
 #include "tests/seam_finding/support/scales.hpp"
 
@@ -23,7 +25,10 @@ struct Made {
   Line line{{0, 0, 0}, {1, 0, 0}};
 };
 
-Made make(double begin, double slant, double next, unsigned seed) {
+// turn: of the edge at its begin, mm farther in for each mm away. cut: by how much a stripe that
+// turns over that edge, onto the plate's cut, goes on along the seam for each mm down; mm.
+Made make(double begin, double slant, double next, unsigned seed, double turn = 0,
+          std::optional<double> cut = {}) {
   std::mt19937 engine(seed);
   std::normal_distribution<double> noise(0, 0.02);
   std::uniform_real_distribution<double> phase(0, 0.1);
@@ -34,16 +39,22 @@ Made make(double begin, double slant, double next, unsigned seed) {
     const int stripe = static_cast<int>(made.cloud.stripes.size());
     std::vector<Eigen::Vector3d> centres;  // outward from the seam
     for (double y = phase(engine); y < 40; y += 0.1)
-      if (const double along = x - slant * y; along > begin && along < 100)
+      if (const double along = x - slant * y; along > begin + turn * y && along < 100)
         centres.emplace_back(along + noise(engine), y, noise(engine));
     const auto add = [&](const Eigen::Vector3d& point, int segment, bool end) {
       made.cloud.points.push_back(point);
       made.cloud.origins.push_back({stripe, segment, end, 0, 0.1f * std::hypot(1.0f, 0.3f)});
     };
+    const bool turns = cut && !centres.empty() && centres.back().x() < begin + 0.5;
     for (std::size_t i = 0; i < centres.size(); ++i)
       if (i % 15 == 0 || i + 1 == centres.size()) {
         made.plate.points.push_back(made.cloud.size());
-        add(centres[i], 0, i == 0 || i + 1 == centres.size());
+        add(centres[i], 0, i == 0 || (i + 1 == centres.size() && !turns));
+      }
+    if (turns)
+      for (double depth = 0.7; depth < 3; depth += 0.7) {
+        const double y = centres.back().y();
+        add({begin - *cut * depth + noise(engine), y, -depth + noise(engine)}, 0, depth > 2.5);
       }
     if (next != 0 && !centres.empty()) add(centres.back() + Eigen::Vector3d(-1, 1, next), 1, true);
     end_stripe(made.cloud, ScanStripe::Seen::kSeen, {x, 100, 200}, {x, 0, 0});
@@ -77,7 +88,7 @@ Edge edge_of(const Made& made, SeamSide side, double about, double shortening_px
   const PlaceGrid grid{outward * about - 10, 0.05, 400};
   Edge edge;
   edge.likelihood = foot_likelihood(evidence_of(made, shortening_px)[side == SeamSide::kEnd], grid,
-                                    SeamFindingSettings{}.edge_slope());
+                                    {0, SeamFindingSettings{}.edge_slope()});
   const PlaceMoments found = moments_of(edge.likelihood, grid);
   edge.along = outward * found.mean;
   edge.deviation = std::hypot(found.deviation, edge.likelihood.deviation);
@@ -105,11 +116,13 @@ TEST_CASE("the edge of a plate is found to a fraction of the stripes' distance")
 
 TEST_CASE("stripes square to the seam cross no edge; what lies before a plate hides its edge") {
   for (const auto& side : evidence_of(make(0, 0, 0, 1), 0.5))
-    for (const StripeEvidence& stripe : side) CHECK_FALSE(stripe.edge);
+    for (const StripeEvidence& stripe : side)
+      for (const EdgeCrossing& edge : stripe.edges) CHECK(leaving(edge, 0) < kEnds.least_slant);
   int occluded = 0;
   for (const StripeEvidence& stripe : toward_begin(make(2, 0.3, 9, 3), 0.5))
-    if (stripe.edge) {
-      CHECK(stripe.edge->occluded);
+    for (const EdgeCrossing& edge : stripe.edges) {
+      if (leaving(edge, 0) < 0) continue;  // over the plate's other end
+      CHECK(edge.occluded);
       CHECK(stripe.covered);
       ++occluded;
     }
@@ -130,7 +143,7 @@ TEST_CASE("a stripe whose light ends too early draws no edge to it") {
 TEST_CASE("a place where a stripe crosses an edge flatly counts for little") {
   const auto deviation = [](double slant) {
     for (const StripeEvidence& stripe : toward_begin(make(2, slant, 0, 7), 0.03))
-      if (stripe.edge) return stripe.edge->deviation;
+      if (!stripe.edges.empty()) return std::sqrt(variance_of(stripe.edges[0], 0, 0));
     return 0.0;
   };
   REQUIRE(deviation(0.4) > 0);
@@ -151,6 +164,49 @@ TEST_CASE("an edge cut at a slant is found by what falls over it") {
     }
     CHECK(within >= 17);
   }
+}
+
+TEST_CASE("over an edge steeper than itself a stripe comes onto the plate") {
+  for (const double turn : {-0.45, -0.55}) {
+    int within = 0;
+    for (unsigned seed = 1; seed <= 10; ++seed) {
+      const double begin = 1 + 0.13 * seed;
+      const Edge edge = edge_of(make(begin, 0.2, -10, seed, turn), SeamSide::kBegin, begin, 0.15);
+      INFO("turn " << turn << ", seed " << seed);
+      CHECK(edge.along == Approx(begin).margin(0.6));
+      within += std::abs(edge.along - begin) <= 2 * edge.deviation;
+    }
+    CHECK(within >= 8);
+  }
+}
+
+TEST_CASE("a stripe that turns over an edge onto a cut tells the edge, square or slanted") {
+  for (const double cut : {0.0, 0.3, 0.45}) {
+    int within = 0;
+    for (unsigned seed = 1; seed <= 10; ++seed) {
+      const double begin = 1 + 0.13 * seed;
+      const Edge edge = edge_of(make(begin, 0.3, 0, seed, 0, cut), SeamSide::kBegin, begin, 0.15);
+      INFO("cut " << cut << ", seed " << seed);
+      CHECK(edge.along == Approx(begin).margin(0.15));
+      within += std::abs(edge.along - begin) <= 2 * edge.deviation;
+    }
+    CHECK(within >= 8);
+  }
+}
+
+TEST_CASE("a stripe says where the plate is absent: as far from the seam as others show it") {
+  const Made made = make(2, 0.3, 0, 5);
+  int absent = 0;
+  for (const StripeEvidence& stripe : toward_begin(made, 0.15)) {
+    if (!stripe.absent) continue;
+    ++absent;
+    CHECK(stripe.absent->away > 2);
+    CHECK(stripe.absent->away < 5);
+    // On the stripe's line: it crosses the seam at one of its places.
+    const double crossing = -(stripe.absent->out - 0.3 * stripe.absent->away);
+    CHECK(std::abs(std::remainder(crossing + 20, 3.6)) < 0.3);
+  }
+  CHECK(absent >= 5);
 }
 
 // The same, and points of the table under the plate, seen from above, in a stripe before its begin:
@@ -243,7 +299,7 @@ TEST_CASE("where stripes leave a plate over its side is no end of it") {
     end_stripe(beside.cloud, ScanStripe::Seen::kSeen, seen.camera_centre, seen.tool_position);
   }
   for (const StripeEvidence& stripe : toward_begin(beside, 0.15))
-    if (stripe.edge) CHECK(std::abs(stripe.edge->away - 40) > 1.5);
+    for (const EdgeCrossing& edge : stripe.edges) CHECK(std::abs(edge.away - 40) > 1.5);
 }
 
 TEST_CASE("dark stripes beside what may hide the plate may be hidden, too") {
@@ -268,7 +324,7 @@ TEST_CASE("dark stripes beside what may hide the plate may be hidden, too") {
   for (int& i : hidden.plate.points) i += added;  // all of them lie in later stripes
   int dark = 0;
   for (const StripeEvidence& stripe : toward_begin(hidden, 0.15))
-    if (stripe.absent && *stripe.absent > -30) {
+    if (stripe.absent && stripe.absent->out > -30) {
       CHECK(stripe.covered);
       ++dark;
     }
@@ -281,7 +337,7 @@ TEST_CASE("in a cloud without stripes the stations alone tell") {
   made.cloud = unorganised_cloud(made.cloud.points);
   for (const auto& side : evidence_of(made, 0.5))
     for (const StripeEvidence& stripe : side) {
-      CHECK_FALSE(stripe.edge);
+      CHECK(stripe.edges.empty());
       CHECK(stripe.off.empty());
       CHECK(stripe.on.empty() == stripe.absent.has_value());
     }

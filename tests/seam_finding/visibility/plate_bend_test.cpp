@@ -57,6 +57,10 @@ TEST_CASE("a plate's bend is followed to its ends, where it has left its plane")
     REQUIRE(bend.bent());
     for (const double x : {0.0, 40.0, 80.0, 120.0, 160.0})
       CHECK(bend.at(x) == Approx(height_at(sagitta, x)).margin(0.1));
+    for (const double x : {0.0, 80.0, 160.0}) {
+      CHECK(bend.slope_at(x) == Approx((bend.at(x + 1) - bend.at(x - 1)) / 2).margin(1e-9));
+      CHECK(bend.times(-2).slope_at(x) == Approx(-2 * bend.slope_at(x)));
+    }
     const auto stripes = plate_stripes(made.cloud, made.plates[0], made.plates[1], kSeam, kScales);
     for (std::size_t k = 0; k < made.cloud.stripes.size(); ++k) {
       const double x = -20 + 4.0 * static_cast<double>(k);

@@ -1,0 +1,63 @@
+// Where a seam starts, in scenes whose plates' ends are easily taken for others.
+#include <catch2/catch.hpp>
+
+#include "paths.hpp"
+#include "tests/bench/seam/wild/judgement.hpp"
+#include "tests/bench/seam/wild/scene_file.hpp"
+#include "tests/bench/seam/wild/wild_case.hpp"
+
+using namespace arcstart;
+using cell_simulator::WildScene;
+
+namespace {
+
+// A base plate that reaches 20 mm beyond an upright of 100 mm.
+WildScene bare(const char* joint) {
+  WildScene scene = read_scene(ARCSTART_SOURCE "/tests/bench/seam/wild/plain_tee.json");
+  scene.solids.clear();
+  scene.works[0].joint = scene.asked = joint;
+  return scene;
+}
+
+// Before the referee, which improves no answer.
+PlaceError start_of(const WildScene& scene) {
+  const WildCase wild(scene);
+  const seam_t seam = wild.answer(false);
+  INFO("refused with " << seam.refusal << ": " << seam.reason);
+  REQUIRE(seam.verdict == seam_t::FOUND);
+  const WildJudgement judgement = judge(seam, wild.truth());
+  REQUIRE(judgement.right);
+  REQUIRE(seam.start_visibility == seam_t::SEEN);
+  return judgement.start;
+}
+
+}  // namespace
+
+TEST_CASE("an edge that is turned away from the seam is found, whichever way it is turned") {
+  WildScene scene = bare("tee");
+  scene.works[0].second.begin.turn_deg = GENERATE(-28.0, 15.0, 28.0);
+  INFO("turned by " << scene.works[0].second.begin.turn_deg << " deg");
+  const PlaceError start = start_of(scene);
+  CHECK(std::abs(start.along) < 0.25);
+  CHECK(start.deviation < 0.3);  // without what stripes show on their way to the seam 1.1
+}
+
+TEST_CASE("an upright that stands off ends where its foot does, however its edge is turned") {
+  WildScene scene = bare("tee");
+  scene.works[0].second.begin.turn_deg = GENERATE(-25.0, 25.0);
+  scene.works[0].gap_begin_mm = scene.works[0].gap_end_mm = 2;
+  INFO("turned by " << scene.works[0].second.begin.turn_deg << " deg");
+  const PlaceError start = start_of(scene);
+  CHECK(std::abs(start.along) < 0.3);  // 0.4 and more on the edge's line to the seam
+  CHECK(start.deviation < 0.5);
+}
+
+TEST_CASE("a lap of bent plates starts square below the upper plate's end") {
+  WildScene scene = bare("lap");
+  cell_simulator::WildWork& work = scene.works[0];
+  work.second.thickness_mm = 12;
+  work.first.behind_mm = 60;
+  work.bow_mm = GENERATE(-1.0, 1.0);
+  INFO("bent by " << work.bow_mm << " mm in 100");
+  CHECK(std::abs(start_of(scene).along) < 0.2);  // 0.4 plumb below it
+}
