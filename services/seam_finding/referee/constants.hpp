@@ -2,29 +2,26 @@
 // scripts/bench seam --wild judges the number.
 #pragma once
 
+#include "services/seam_finding/model/constants.hpp"
+
 namespace arcstart::seam_finding {
 
 struct RefereeConstants {
   // The sheet of light (stripe_light).
 
-  // Points of a stripe by which its plane of light is known - all stripes share one plane.
-  int light_points = 24;
-  // mm; points that spread less off a line span no plane - they lie on it to 0.001.
+  // mm; points that spread less off a line span no plane, and none is off it that is nearer - they
+  // lie on it to 0.001, float's rounding at 10 m.
   double light_width = 0.05;
-  // Times the middle distance: a point farther off does not count; and mm, how far none is off - a
-  // normal distribution's 4 deviations; float's rounding at 10 m.
-  double light_cut = 6, light_noise = 1e-3;
 
   // Where light meets a plate (plate_view).
 
-  // mm; between points that are looked at - a quarter of a usual spacing of stripes.
+  // mm; between points that are looked at, so that a stripe tells to so much where it leaves a
+  // plate - a quarter of a usual spacing of stripes.
   double step = 1.0;
   // Points of a stripe within a step, at most - 0.07 mm a pixel and less.
   int longest_jump = 16;
   // mm; of a plate away from the seam, at most - what a plate's edge is known by.
   double reach = 60;
-  // mm; on the other plate's side of the seam, what is looked at - the widest gap.
-  double across_seam = 5;
   // mm; along the seam beyond the claimed ends, what is looked at - the longest tool across a seam.
   double beyond = 80;
   // Of the seam's direction, its part along the light's normal, at least - 1: it is crossed square.
@@ -40,29 +37,20 @@ struct RefereeConstants {
 
   // mm; a plate's own bend and its waves from robot and calibration, at most - 1 in 100.
   double bend = 1.0;
-  // mm; of a plate away from where it begins, what its shape is taken from, and how wide: nearer,
-  // light from the other plate moves the stripe - bench.
-  double shape_from = 5, shape_width = 25;
   // Places by which a plate's shape is known well enough - its noise over their root.
   int shape_places = 1000;
-  // Times the noise: places farther off do not count; places no farther off are of the plate - a
-  // normal distribution's share of 0.3 % and of 0.006 %.
-  double cut = 3, tolerance = 4;
-  // mm; and at least and at most - bench.
+  // mm; of a place on it from a plate, at least and at most - bench.
   double least_tolerance = 0.25, most_tolerance = 0.8;
 
   // What is plate (plate_looks).
 
   // mm; a plate counts from there on: nearer, fillets, gaps and reflections are - bench.
   double beside_seam = 1.5;
-  // mm; of a plate from there on, what is beside the seam - bench.
+  // mm; of a plate from there on, what is beside the seam, to both sides. Farther away is what a
+  // plate's shape is taken from: nearer, light from the other plate moves the stripe - bench.
   double near_seam = 5;
   // A stripe is on or off a plate beside the seam by this share of what is known there - bench.
   double clear = 0.75;
-  // Places on a plate by which a stripe tells how it is bent - fewer may be a bead.
-  int sure_places = 3;
-  // Places of a stripe in a row that are not on a plate: it has ended there - bench.
-  int others_in_a_row = 2;
 
   // The seam as a whole (contradictions, seam_edges).
 
@@ -88,8 +76,6 @@ struct RefereeConstants {
   // Of a round corner's radius, what its arc keeps off the planes' line, at least: 0.41 at 90 deg,
   // 0.15 at 120; and the differences of the radii seen, at most, quartile to quartile - bench.
   double round_clearance = 0.3, one_radius = 0.3;
-  // mm; from where a plate is claimed to begin, a stripe leaves it no farther off - bench.
-  double edge_off = 1.0;
   // mm; between neighbouring places of a stripe on a plate, at most - M of 15 in steep sight.
   double place_gap = 3;
   // Of the stripes at a seam between parallel plates, those that leave the plates there - bench.
@@ -98,9 +84,7 @@ struct RefereeConstants {
   double nearly_all = 0.7;
   // Stripes by which an edge's course is known - bench.
   int course_stripes = 6;
-  // Stripes at the seam that must show both plates, at least, and of those that tell, the share -
-  // bench.
-  int shown_stripes = 3;
+  // Of the stripes at the seam that tell, those that must show it - bench.
   double shown_share = 0.6;
 
   // A plate's end (end_bounds, edge_evidence, edge_fit).
@@ -108,8 +92,6 @@ struct RefereeConstants {
   // Stripes inside of those at the end, that may cross its edge far from the seam - an edge at 31
   // degrees over a plate of 60 mm.
   int stripes_inside = 12;
-  // mm; from where a plate begins, the first place that says that it is there - bench.
-  double first_place = 0.5;
   // Spacings of stripes from one that shows that a plate has ended to the next, at most, for that
   // to be believed - the next, with a spacing that varies by a half.
   double lone = 1.5;
@@ -121,7 +103,8 @@ struct RefereeConstants {
   double dark_weight = 0.4;
   // Of an edge's direction from the normal to the seam: along for each away - cut up to 31 degrees.
   double steepest = 0.6, steepness_step = 0.005;
-  // mm; a place of an edge is off by so much, at most - 0.3 px along the stripe, and the noise.
+  // mm; a place of an edge is off by so much, at most, and the middle between the edges of plates
+  // side by side - 0.3 px along the stripe, and the noise.
   double place = 0.2;
   // mm; waves of a flame's cut, at most - ISO 9013, unevenness of range 4 at 20 mm, and more.
   double largest_wave = 1.6;
@@ -134,8 +117,6 @@ struct RefereeConstants {
   double allowed = 0.8;
   // mm; and is not contradicted by less - likewise.
   double contradicted = 0.9;
-  // Standard deviations of an end, or of a figure, that it may be off.
-  double deviations = 3;
   // Spacings of stripes: an end of which no more is known is not determined; and mm, no less -
   // bench.
   double determined = 2, always_determined = 5;
@@ -144,8 +125,6 @@ struct RefereeConstants {
   // mm; a plate lies off the seam by so much at an end, at most, before it counts - what is wrong
   // silently across.
   double off = 0.4;
-  // mm; likewise the middle between the edges of plates side by side - bench.
-  double off_beside = 0.2;
 };
 inline constexpr RefereeConstants kReferee;
 

@@ -4,8 +4,8 @@
 #include <cmath>
 #include <optional>
 
+#include "services/seam_finding/fit/order_statistics.hpp"
 #include "services/seam_finding/referee/constants.hpp"
-#include "services/seam_finding/referee/quantile.hpp"
 
 namespace arcstart::seam_finding {
 namespace {
@@ -16,7 +16,7 @@ using Code = Reason::Code;
 Reason of_shape(const PlateShape& shape, const PlateView& view) {
   if (!shape.known || std::abs(shape.height_at_seam(shape.middle)) > kReferee.bend)
     return {Code::kPlateNotShown};
-  const double sure = kReferee.deviations;
+  const double sure = kFit.outlier;
   const bool round =
       -shape.curvature > 1 / kReferee.round && -shape.curvature > sure * shape.curvature_deviation;
   if (round && shape.width < kReferee.narrow) return {Code::kPlateRound, -1 / shape.curvature};
@@ -34,7 +34,7 @@ bool within(const StripeOnPlate& stripe, double from, double to) {
 
 // Plates side by side end at the seam: else there is none.
 Reason at_edge(const SeamEdges& edges) {
-  if (edges.stripes >= kReferee.shown_stripes &&
+  if (edges.stripes >= kModel.stripes_in_a_row &&
       edges.leaving < kReferee.edges_shown * edges.stripes)
     return {Code::kNoEdgeAtSeam, static_cast<double>(edges.leaving),
             static_cast<double>(edges.stripes)};
@@ -51,7 +51,7 @@ std::optional<double> unbroken(const PlateView& view, const StripeOnPlate& strip
     if (place.look == Look::kBefore && place.away - last < kReferee.plate_gap) return std::nullopt;
     if (place.look == Look::kBefore || place.away - last > kReferee.plate_gap) break;
     others = place.look == Look::kOn ? 0 : others + 1;
-    if (others == kReferee.others_in_a_row) break;
+    if (others == kModel.sure_off_plate) break;
     if (place.look == Look::kOn) reached = last = place.away;
   }
   return reached;
@@ -71,8 +71,8 @@ Reason of_cut(const PlateView& view, double length) {
     wide += !reach || *reach >= kReferee.widest_cut;
     if (reach) reaches.push_back(*reach);
   }
-  if (shown >= kReferee.shown_stripes && wide < kReferee.wide_share * shown)
-    return {Code::kPlateTooNarrow, quantile_of(reaches, 0.5)};
+  if (shown >= kModel.stripes_in_a_row && wide < kReferee.wide_share * shown)
+    return {Code::kPlateTooNarrow, median(reaches)};
   return {};
 }
 
@@ -90,7 +90,7 @@ Reason along(const std::array<PlateView, 2>& views, double length, double spacin
     if (a == AtSeam::kOff || b == AtSeam::kOff) ++not_both;
   }
   const int known = both + not_both;
-  if (known >= kReferee.shown_stripes && both < kReferee.shown_share * known)
+  if (known >= kModel.stripes_in_a_row && both < kReferee.shown_share * known)
     return {Code::kSeamNotShown, static_cast<double>(both), static_cast<double>(known)};
   return {};
 }

@@ -35,7 +35,7 @@ class StripeEvidence {
   StripeEvidence(const StripeOnPlate& stripe, double begin, double width, const ClaimedEnd& end)
       : stripe_(stripe),
         begin_(begin),
-        from_(begin + kReferee.first_place),
+        from_(begin + kReferee.step / 2),
         to_(begin + width),
         end_(end) {
     for (const Place& place : stripe.places) {

@@ -3,8 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "services/seam_finding/fit/order_statistics.hpp"
 #include "services/seam_finding/referee/constants.hpp"
-#include "services/seam_finding/referee/quantile.hpp"
 
 namespace arcstart::seam_finding {
 namespace {
@@ -26,10 +26,10 @@ void set_looks(const PlateShape& shape, double begin, StripeOnPlate& stripe, dou
     else
       ++others;
   }
-  if (static_cast<int>(heights.size()) < kReferee.sure_places ||
+  if (static_cast<int>(heights.size()) < kModel.sure_points ||
       static_cast<int>(heights.size()) < others)
     return;
-  risen += quantile_of(heights, 0.5);
+  risen += median(heights);
 }
 
 // Whether the stripe's places, rising away, are as they follow each other along the stripe, or just
@@ -117,7 +117,7 @@ void set_width(double length, double tolerance, PlateView& view) {
       if (place.along < 0 || place.along > length) continue;
       others = place.look == Look::kOn ? 0 : others + 1;
       cut_short = place.look == Look::kBefore;
-      if (others == kReferee.others_in_a_row && reached >= 0) break;
+      if (others == kModel.sure_off_plate && reached >= 0) break;
       if (place.look == Look::kOn) reached = place.away;
     }
     if (reached > 0) (cut_short ? cut : widths).push_back(reached);
@@ -125,8 +125,8 @@ void set_width(double length, double tolerance, PlateView& view) {
   // Where nearly all are cut short, they must do.
   if (3 * widths.size() < cut.size()) widths.insert(widths.end(), cut.begin(), cut.end());
   if (widths.empty()) return;
-  view.width = std::max(0.0, quantile_of(widths, 0.25) - 2 * tolerance);
-  view.widest = std::max(0.0, quantile_of(widths, 0.75) - 2 * tolerance);
+  view.width = std::max(0.0, upper_quantile(widths, 0.25) - 2 * tolerance);
+  view.widest = std::max(0.0, upper_quantile(widths, 0.75) - 2 * tolerance);
 }
 
 }  // namespace

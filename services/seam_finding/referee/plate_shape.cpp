@@ -95,11 +95,11 @@ PlateShape shape_within(const PlateView& view, double length, double from, doubl
     }
     shape.noise = std::sqrt(squares / std::max(1.0, kept - kTerms));
     shape.width = farthest - scale.begin;
-    cut = std::clamp(kReferee.cut * shape.noise, kReferee.least_tolerance, kReferee.bend);
+    cut = std::clamp(kFit.outlier * shape.noise, kReferee.least_tolerance, kReferee.bend);
   }
   shape.known = true;
-  shape.tolerance = std::clamp(kReferee.tolerance * shape.noise, kReferee.least_tolerance,
-                               kReferee.most_tolerance);
+  shape.tolerance =
+      std::clamp(kFit.on_plane * shape.noise, kReferee.least_tolerance, kReferee.most_tolerance);
   // What a stripe is wrong by, it is wrong by in all its places.
   const double stripes = static_cast<double>(view.stripes.size());
   const double alike = std::max(1.0, count / std::max(1.0, stripes));
@@ -128,7 +128,7 @@ double PlateShape::height_at(double along, double away) const {
 }
 
 PlateShape shape_of(const PlateView& view, double length) {
-  const PlateShape wide = shape_within(view, length, kReferee.shape_from, kReferee.shape_width);
+  const PlateShape wide = shape_within(view, length, kReferee.near_seam, kModel.beside_seam);
   const bool good = wide.known && wide.tilt_deviation < kReferee.turned &&
                     std::abs(wide.height_at_seam(wide.middle)) < kReferee.bend;
   return good ? wide : shape_within(view, length, kReferee.beside_seam, kReferee.narrow);

@@ -3,8 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "services/seam_finding/fit/order_statistics.hpp"
 #include "services/seam_finding/referee/constants.hpp"
-#include "services/seam_finding/referee/quantile.hpp"
 
 namespace arcstart::seam_finding {
 namespace {
@@ -42,7 +42,7 @@ bool set_place(const Frame& frame, const LightOver& light, const Eigen::Vector3d
     at = light.source + share * (point - light.source);
   }
   place.away = frame.away.dot(at - frame.origin);
-  if (place.away < -kReferee.across_seam || place.away > kReferee.reach) return false;
+  if (place.away < -kReferee.near_seam || place.away > kReferee.reach) return false;
   place.along = frame.along.dot(at - frame.origin);
   return true;
 }
@@ -101,7 +101,7 @@ double begin_of(const PlateView& view, double length) {
     }
   }
   if (begins.empty()) return view.plate.inset;
-  const double half = quantile_of(begins, 0.5);
+  const double half = median(begins);
   // What is nearer than the places stand to each other is the seam itself.
   return half < view.plate.inset + kReferee.step / 2
              ? view.plate.inset

@@ -30,7 +30,7 @@ class EndRuling {
     widen_beside();
     if (visibility() == EndVisibility::kNotDetermined) return without_deviation();
     if (!bounds_.anchored) return undetermined(Code::kStartNotShown, Code::kEndNotShown, 0);
-    const double allowed = std::max(kReferee.allowed, kReferee.deviations * claimed_deviation());
+    const double allowed = std::max(kReferee.allowed, kFit.outlier * claimed_deviation());
     const double too_far = std::max(kReferee.contradicted, allowed);
     if (bounds_.least > too_far) return contradicted(bounds_.least);
     if (bounds_.most < -too_far) return contradicted(bounds_.most);
@@ -83,7 +83,7 @@ class EndRuling {
   // The farthest place where the end may be.
   void set_reach(double farthest) {
     if (!seam_.accuracy) return;
-    const double deviation = farthest / kReferee.deviations;
+    const double deviation = farthest / kFit.outlier;
     set_variance_along(seam_.direction, deviation * deviation, covariance());
   }
 
@@ -108,8 +108,7 @@ class EndRuling {
     }
     if (plates == 0 || !seam_.accuracy) return;
     off /= plates;
-    if (std::abs(off) > kReferee.off_beside)
-      covariance() += off * off * across * across.transpose();
+    if (std::abs(off) > kReferee.place) covariance() += off * off * across * across.transpose();
   }
 
   const Examination& examination_;
