@@ -3,13 +3,13 @@
 #include <algorithm>
 #include <arcstart/seam_t.hpp>
 
+#include "services/seam_finding/scan/scan_limits.hpp"
+
 namespace arcstart::seam_finding {
 namespace {
 
-// What comes over the network must not fill the memory.
+// As scan_limits.hpp.
 constexpr std::size_t kMostOpen = 4;
-constexpr std::size_t kMostProfiles = 20'000;  // of a scan: 20 minutes at 14 Hz
-constexpr std::size_t kMostPoints = 2'000'000;
 constexpr std::size_t kMostAnswered = 1000;
 
 // A scan's end as the next scan's state still tells it; known: what was heard of it before.
