@@ -44,7 +44,7 @@ double shown_beyond(const seam_finding::EndBounds& bounds) {
   double beyond = kBeyond;
   for (const double bound : {bounds.least, bounds.most})
     if (std::isfinite(bound)) beyond = std::max(beyond, bound + kPast);
-  return std::min(beyond, kReferee.beyond);
+  return std::min(beyond, kReferee.reach);
 }
 
 double shown_away(const PlateView& view) {

@@ -63,7 +63,8 @@ std::vector<Told> slopes_told(const std::vector<StripeEvidence>& evidence, const
       const double apart = b->away - a->away;
       if (apart < kEnds.direction_base) continue;
       const double slope = (b->along - a->along) / apart, foot = a->along - slope * a->away;
-      if (std::abs(slope) > kEnds.steepest || foot < grid.first || foot > grid.at(grid.count - 1))
+      if (std::abs(slope) > kModel.steepest_edge || foot < grid.first ||
+          foot > grid.at(grid.count - 1))
         continue;
       double w = 0, r = 0, t = 0, rr = 0, rt = 0;
       for (const EdgeCrossing* edge : edges) {
@@ -96,13 +97,13 @@ std::vector<Slope> slopes_of(const std::vector<StripeEvidence>& evidence, const 
                              double edge_slope) {
   std::vector<Slope> slopes;
   add_normal(0, edge_slope, 1 - kEnds.slanted_share, slopes);
-  const double density = kEnds.slanted_share / (2 * kEnds.steepest);
+  const double density = kEnds.slanted_share / (2 * kModel.steepest_edge);
   for (const Told& told : slopes_told(evidence, grid)) {
     if (std::abs(told.slope) < 3 * std::hypot(edge_slope, told.deviation)) continue;
     add_told(told.slope, told.deviation, density, slopes);
   }
   for (int i = 0; i < kEnds.slanted_steps; ++i)
-    slopes.push_back({kEnds.steepest * ((2.0 * i + 1) / kEnds.slanted_steps - 1),
+    slopes.push_back({kModel.steepest_edge * ((2.0 * i + 1) / kEnds.slanted_steps - 1),
                       {{kEnds.roughness.back().first, kEnds.slanted_share / kEnds.slanted_steps}}});
   return slopes;
 }

@@ -35,7 +35,7 @@ bool within(const StripeOnPlate& stripe, double from, double to) {
 // Plates side by side end at the seam: else there is none.
 Reason at_edge(const SeamEdges& edges) {
   if (edges.stripes >= kModel.stripes_in_a_row &&
-      edges.leaving < kReferee.edges_shown * edges.stripes)
+      edges.leaving < kReferee.by_accident * edges.stripes)
     return {Code::kNoEdgeAtSeam, static_cast<double>(edges.leaving),
             static_cast<double>(edges.stripes)};
   return {};
@@ -48,8 +48,8 @@ std::optional<double> unbroken(const PlateView& view, const StripeOnPlate& strip
   int others = 0;  // in a row
   for (const Place& place : stripe.places) {
     if (place.away < view.begin + kReferee.beside_seam) continue;
-    if (place.look == Look::kBefore && place.away - last < kReferee.plate_gap) return std::nullopt;
-    if (place.look == Look::kBefore || place.away - last > kReferee.plate_gap) break;
+    if (place.look == Look::kBefore && place.away - last < kModel.piece_gap) return std::nullopt;
+    if (place.look == Look::kBefore || place.away - last > kModel.piece_gap) break;
     others = place.look == Look::kOn ? 0 : others + 1;
     if (others == kModel.sure_off_plate) break;
     if (place.look == Look::kOn) reached = last = place.away;
@@ -62,16 +62,16 @@ std::optional<double> unbroken(const PlateView& view, const StripeOnPlate& strip
 // thick.
 Reason of_cut(const PlateView& view, double length) {
   std::vector<double> reaches;
-  int shown = 0, wide = 0;
+  int shown = 0, narrow = 0;
   for (const StripeOnPlate& stripe : view.stripes) {
     if (!within(stripe, 0, length) || stripe.at_seam == AtSeam::kOff) continue;
     const auto reach = unbroken(view, stripe);
     if (reach && *reach < 0) continue;
     ++shown;
-    wide += !reach || *reach >= kReferee.widest_cut;
+    narrow += reach && *reach < kModel.widest_cut;
     if (reach) reaches.push_back(*reach);
   }
-  if (shown >= kModel.stripes_in_a_row && wide < kReferee.wide_share * shown)
+  if (shown >= kModel.stripes_in_a_row && narrow > kReferee.shown_share * shown)
     return {Code::kPlateTooNarrow, median(reaches)};
   return {};
 }
@@ -105,10 +105,6 @@ Reason contradiction_of(const SeamResult& seam, const std::array<PlateView, 2>& 
   const double length = (seam.end - seam.start).norm();
   if (views[0].stripes.size() < 2 || views[1].stripes.size() < 2) return {Code::kSeamNotCrossed};
   for (int j = 0; j < 2; ++j) {
-    // A plate reaches away from the seam within its plane.
-    const SeamPlate& plate = views[j].plate;
-    if (std::abs(plate.away.dot(plate.plane.normal)) > kReferee.out_of_plane)
-      return {Code::kPlateNotShown};
     if (const Reason reason = of_shape(shapes[j], views[j])) return reason;
   }
   for (int j = 0; j < 2; ++j)

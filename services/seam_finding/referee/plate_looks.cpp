@@ -100,8 +100,8 @@ AtSeam seen_at_seam(const PlateView& view, const StripeOnPlate& stripe) {
   }
   const int known = on + off;
   if (known == 0) return before > 0 ? AtSeam::kHidden : AtSeam::kUnknown;
-  if (on >= kReferee.clear * known) return AtSeam::kOn;
-  if (off >= kReferee.clear * known) return AtSeam::kOff;
+  if (on >= kReferee.nearly_all * known) return AtSeam::kOn;
+  if (off >= kReferee.nearly_all * known) return AtSeam::kOff;
   return AtSeam::kPart;
 }
 

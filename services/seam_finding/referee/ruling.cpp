@@ -31,9 +31,8 @@ class EndRuling {
     if (visibility() == EndVisibility::kNotDetermined) return without_deviation();
     if (!bounds_.anchored) return undetermined(Code::kStartNotShown, Code::kEndNotShown, 0);
     const double allowed = std::max(kReferee.allowed, kFit.outlier * claimed_deviation());
-    const double too_far = std::max(kReferee.contradicted, allowed);
-    if (bounds_.least > too_far) return contradicted(bounds_.least);
-    if (bounds_.most < -too_far) return contradicted(bounds_.most);
+    if (bounds_.least > allowed) return contradicted(bounds_.least);
+    if (bounds_.most < -allowed) return contradicted(bounds_.most);
     const double farthest = std::max(bounds_.most, -bounds_.least);
     if (farthest <= allowed) return;
     const bool open =
@@ -60,8 +59,8 @@ class EndRuling {
 
   void contradicted(double by) {
     SecondPlace& second = start_ ? seam_.start_second : seam_.end_second;
-    const double least = std::max(bounds_.least, -kReferee.beyond),
-                 most = std::min(bounds_.most, kReferee.beyond);
+    const double least = std::max(bounds_.least, -kReferee.reach),
+                 most = std::min(bounds_.most, kReferee.reach);
     second.place = (start_ ? seam_.start : seam_.end) +
                    (start_ ? -1 : 1) * (least + most) / 2 * seam_.direction;
     second.weight = kReferee.second_weight;
@@ -91,7 +90,7 @@ class EndRuling {
     const PlateShape& shape = examination_.shapes[j];
     if (!shape.known || !seam_.accuracy) return;
     const double off = shape.height_at_seam(start_ ? 0 : 2 * shape.half);
-    if (std::abs(off) < kReferee.off) return;
+    if (std::abs(off) < kReferee.allowed / 2) return;
     covariance() += off * off * seam_.normals[j] * seam_.normals[j].transpose();
   }
 

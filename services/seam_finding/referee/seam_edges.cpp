@@ -16,7 +16,7 @@ struct EdgePlace {
 // Least squares, then once more without what lies off; false with too few.
 bool fit_course(std::vector<EdgePlace> places, double length, SeamEdges& edges) {
   for (int pass = 0; pass < 2; ++pass) {
-    if (static_cast<int>(places.size()) < kReferee.course_stripes) return false;
+    if (static_cast<int>(places.size()) < kFit.line_places) return false;
     double n = 0, x = 0, y = 0, xx = 0, xy = 0;
     for (const EdgePlace& place : places) {
       n += 1, x += place.along, y += place.off;
@@ -52,7 +52,7 @@ std::array<bool, 2> end_at_seam(const SeamResult& seam) {
   if (seam.joint_type == "butt" || seam.joint_type == "v") return {true, true};
   if (seam.joint_type != "lap") return {false, false};
   const auto over = [&](int plate) {
-    return seam.faces[plate].plane.signed_distance(seam.start) < -kReferee.off;
+    return seam.faces[plate].plane.signed_distance(seam.start) < -kReferee.allowed / 2;
   };
   return {over(0), over(1)};
 }
@@ -63,7 +63,7 @@ std::optional<double> edge_in(const PlateView& view, const StripeOnPlate& stripe
   bool ends = false;
   for (auto place = stripe.places.rbegin(); place != stripe.places.rend(); ++place) {
     if (!last && place->away > from + kReferee.near_seam) continue;
-    if (place->look != Look::kOn || (last && *last - place->away > kReferee.place_gap)) {
+    if (place->look != Look::kOn || (last && *last - place->away > kModel.piece_gap)) {
       if (last) return last;
       continue;
     }

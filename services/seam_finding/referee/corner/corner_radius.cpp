@@ -32,7 +32,7 @@ std::optional<double> corner_radius(const ScanCloud& cloud, const std::vector<in
     const Eigen::Vector3d from_start = cloud.points[i] - seam.start;
     const double along = seam.direction.dot(from_start);
     const double off = (from_start - along * seam.direction).norm();
-    if (along < 0 || along > length || off > kReferee.farthest_begin) continue;
+    if (along < 0 || along > length || off > kModel.widest_round) continue;
     AroundCorner& stripe = stripes[cloud.origins[i].stripe];
     stripe.nearest = std::min(stripe.nearest, off);
     const double first = -seam.faces[0].plane.signed_distance(cloud.points[i]),
