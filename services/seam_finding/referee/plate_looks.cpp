@@ -32,16 +32,6 @@ void set_looks(const PlateShape& shape, double begin, StripeOnPlate& stripe, dou
   risen += median(heights);
 }
 
-// Whether the stripe's places, rising away, are as they follow each other along the stripe, or just
-// the other way round.
-bool in_order(const std::vector<Place>& places) {
-  if (places.size() < 3) return true;
-  const bool rising = places[0].point < places[1].point;
-  for (std::size_t i = 2; i < places.size(); ++i)
-    if ((places[i - 1].point < places[i].point) != rising) return false;
-  return true;
-}
-
 // Between two neighbours of a segment that look alike, what lies there looks so, too: the scan was
 // thinned out, or its image has few pixels. a is the earlier point; appended from a to b.
 void append_between(const Place& a, const Place& b, std::vector<Place>& places) {
@@ -58,25 +48,13 @@ void append_between(const Place& a, const Place& b, std::vector<Place>& places) 
   }
 }
 
-// scratch: keeps its memory from stripe to stripe.
-void fill_in(StripeOnPlate& stripe, std::vector<Place>& scratch) {
+// along: keeps its memory from stripe to stripe.
+void fill_in(StripeOnPlate& stripe, std::vector<Place>& along) {
   std::vector<Place>& places = stripe.places;
-  scratch.clear();
-  if (in_order(places)) {
-    // As mostly: neighbours away are neighbours along the stripe.
-    const std::size_t count = places.size();
-    const bool rising = count < 2 || places[0].point < places[1].point;
-    for (std::size_t i = 1; i < count; ++i)
-      append_between(places[rising ? i - 1 : count - i], places[rising ? i : count - 1 - i],
-                     scratch);
-  } else {
-    std::vector<Place> along = places;
-    sort_by(&Place::point, along);
-    for (std::size_t i = 1; i < along.size(); ++i) append_between(along[i - 1], along[i], scratch);
-  }
-  if (scratch.empty()) return;
-  places.insert(places.end(), scratch.begin(), scratch.end());
-  sort_by(&Place::away, places);
+  along = places;
+  sort_by(&Place::point, along);
+  for (std::size_t i = 1; i < along.size(); ++i) append_between(along[i - 1], along[i], places);
+  if (places.size() > along.size()) sort_by(&Place::away, places);
 }
 
 // A single place at the plate's height beside what stands on the plate is on that thing's flank.
@@ -139,7 +117,7 @@ void set_looks(const PlateShape& shape, double length, PlateView& view) {
       stripes.begin(), stripes.end(),
       [&](const StripeOnPlate& stripe) { return stripe.crossing < length / 2; });
   std::vector<double> heights;
-  std::vector<Place> between;
+  std::vector<Place> along;
   double risen = 0;
   for (auto stripe = middle; stripe != stripes.end(); ++stripe)
     set_looks(shape, view.begin, *stripe, risen, heights);
@@ -147,7 +125,7 @@ void set_looks(const PlateShape& shape, double length, PlateView& view) {
   for (auto stripe = middle; stripe != stripes.begin();)
     set_looks(shape, view.begin, *--stripe, risen, heights);
   for (StripeOnPlate& stripe : stripes) {
-    fill_in(stripe, between);
+    fill_in(stripe, along);
     leave_out_flanks(stripe);
     stripe.at_seam = seen_at_seam(view, stripe);
   }
