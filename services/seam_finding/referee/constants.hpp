@@ -56,7 +56,7 @@ struct RefereeConstants {
   double round_clearance = 0.3, one_radius = 0.3;
   // Shares of what tells, stripes at the seam or places of one beside it: of what must be shown; of
   // what leaves no doubt; and of what may be otherwise by accident - bench.
-  double shown_share = 0.6, nearly_all = 0.75, by_accident = 0.2;
+  double shown_share = 0.6, nearly_all = 0.75, by_accident = 0.15;
 
   // A plate's end (end_bounds, edge_evidence, edge_fit).
 

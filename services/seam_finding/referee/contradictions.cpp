@@ -105,6 +105,10 @@ Reason contradiction_of(const SeamResult& seam, const std::array<PlateView, 2>& 
   const double length = (seam.end - seam.start).norm();
   if (views[0].stripes.size() < 2 || views[1].stripes.size() < 2) return {Code::kSeamNotCrossed};
   for (int j = 0; j < 2; ++j) {
+    // A plate reaches away from the seam within its plane.
+    const SeamPlate& plate = views[j].plate;
+    if (std::abs(plate.away.dot(plate.plane.normal)) > kReferee.turned)
+      return {Code::kPlateNotShown};
     if (const Reason reason = of_shape(shapes[j], views[j])) return reason;
   }
   for (int j = 0; j < 2; ++j)
