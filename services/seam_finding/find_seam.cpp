@@ -3,14 +3,15 @@
 #include <utility>
 #include <vector>
 
+#include "services/seam_finding/answer/accuracy.hpp"
 #include "services/seam_finding/answer/description.hpp"
+#include "services/seam_finding/answer/seam_measurements.hpp"
 #include "services/seam_finding/background/continuation.hpp"
 #include "services/seam_finding/background/scan_view.hpp"
 #include "services/seam_finding/cloud/sampling.hpp"
 #include "services/seam_finding/cloud/scales.hpp"
 #include "services/seam_finding/ends/seam_ends.hpp"
 #include "services/seam_finding/geometry/joint_candidates.hpp"
-#include "services/seam_finding/geometry/joint_geometry.hpp"
 #include "services/seam_finding/joints/joint_choice.hpp"
 #include "services/seam_finding/paper/find_seam_as_in_the_paper.hpp"
 #include "services/seam_finding/planes/planes.hpp"
@@ -52,16 +53,13 @@ std::array<SeamEnd, 2> find_ends(const ScanCloud& cloud, const Joint& joint, con
 
 Findings measure(const ScanCloud& cloud, const Joint& joint, const Scales& scales,
                  const SeamFindingSettings& settings) {
-  const JointGeometry& geometry = geometry_of(joint);
   Findings findings;
   findings.ends = find_ends(cloud, joint, scales, settings);
   if (settings.start_rule == StartRule::kEdges)
-    findings.accuracy = geometry.accuracy(cloud, joint, findings.ends, scales, settings);
+    findings.accuracy = seam_accuracy(cloud, joint, findings.ends, scales, settings);
   const auto along = [&](const SeamEnd& end) { return joint.line.along(joint.line.at(end.along)); };
   findings.stations =
-      geometry.measurements(cloud, joint, along(findings.ends[0]), along(findings.ends[1]), scales);
-  findings.torch_faces = geometry.torch_faces(joint);
-  findings.one_plane = joint.type == JointType::kButt || joint.type == JointType::kV;
+      measure_seam(cloud, joint, along(findings.ends[0]), along(findings.ends[1]), scales.spacing);
   findings.with_stripes = cloud.organised();
   return findings;
 }

@@ -5,14 +5,12 @@
 
 #include "common/bus/calibration_message.hpp"
 #include "common/time.hpp"
+#include "services/seam_finding/scan/scan_limits.hpp"
 
 namespace arcstart::seam_finding {
 namespace {
 
-constexpr std::size_t kCalibrations = 4;         // kept, by id
 constexpr std::int64_t kRepetition = 1'000'000;  // us
-// Of all backgrounds in memory but the newest.
-constexpr std::size_t kMostBackgroundPoints = 1'000'000;
 
 }  // namespace
 
@@ -69,7 +67,9 @@ void SeamFindingApp::take(const calibration_t& message) {
   } catch (const CalibrationError&) {
     return;
   }
-  if (calibrations_.size() > kCalibrations) calibrations_.erase(calibrations_.begin());
+  // As many as there are backgrounds: a seam needs one of its own calibration.
+  if (calibrations_.size() > static_cast<std::size_t>(settings_.backgrounds_kept))
+    calibrations_.erase(calibrations_.begin());
 }
 
 void SeamFindingApp::answer_decided() {
@@ -101,10 +101,10 @@ seam_t SeamFindingApp::take_background(const CollectedScan& scan) {
 
 void SeamFindingApp::remember(const CollectedScan& scan) {
   backgrounds_.push_back(std::make_unique<StoredBackground>(scan, settings_));
-  std::size_t points = 0, kept = 0;
+  std::size_t points = 0, kept = 0;  // but for the newest no more than one scan's
   for (auto one = backgrounds_.rbegin(); one != backgrounds_.rend(); ++one) {
     points += (*one)->points();
-    if (kept > 0 && (points > kMostBackgroundPoints ||
+    if (kept > 0 && (points > kMostPoints ||
                      kept >= static_cast<std::size_t>(settings_.backgrounds_kept)))
       break;
     ++kept;

@@ -41,7 +41,7 @@ double shown_beyond(const seam_finding::EndBounds& bounds) {
   double beyond = kBeyond;
   for (const double bound : {bounds.least, bounds.most})
     if (std::isfinite(bound)) beyond = std::max(beyond, bound + kPast);
-  return std::min(beyond, kReferee.beyond);
+  return std::min(beyond, kReferee.reach);
 }
 
 double shown_away(const PlateView& view) {
@@ -95,14 +95,14 @@ void ContradictionPicture::lay_out(const ExaminedSeam& seam) {
   const std::array<double, 2> away = {shown_away(seam.examination.views[0]),
                                       shown_away(seam.examination.views[1])};
   px_per_mm_ =
-      std::min(kWide / (to_ - from_), kHigh / (std::max(away[0], away[1]) + kReferee.across_seam));
+      std::min(kWide / (to_ - from_), kHigh / (std::max(away[0], away[1]) + kReferee.near_seam));
   const auto px = [&](double mm) { return static_cast<int>(std::lround(mm * px_per_mm_)); };
   int top = kMargin + kLine * static_cast<int>(seam.objections.size());
   for (int plate = 0; plate < 2; ++plate) {
     Panel& panel = panels_[plate];
-    panel.frame = {kMargin, top, px(to_ - from_), px(away[plate] + kReferee.across_seam)};
+    panel.frame = {kMargin, top, px(to_ - from_), px(away[plate] + kReferee.near_seam)};
     panel.up = plate == 0 ? 1 : -1;
-    panel.away0 = px_per_mm_ * (plate == 0 ? away[0] : kReferee.across_seam);
+    panel.away0 = px_per_mm_ * (plate == 0 ? away[0] : kReferee.near_seam);
     top += panel.frame.height + kTicks;
   }
   image_.create(top, std::max(kLeast, panels_[0].frame.width + 2 * kMargin), CV_8UC3);
@@ -130,7 +130,7 @@ void ContradictionPicture::draw_panel(int plate, const ExaminedSeam& seam) {
         cv::circle(inside, at(place.along, place.away), kDot, colour_of(place.look), cv::FILLED);
   cv::line(inside, at(from_, 0), at(to_, 0), kText, 1);
   for (const double end : {0.0, length})
-    cv::line(inside, at(end, -kReferee.across_seam), at(end, farthest), kClaim, 1);
+    cv::line(inside, at(end, -kReferee.near_seam), at(end, farthest), kClaim, 1);
   cv::rectangle(image_, frame, kBefore);
 }
 

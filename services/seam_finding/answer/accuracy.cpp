@@ -22,25 +22,26 @@ struct Spread {
   double variance() const { return std::max(0.0, squares / n - mean() * mean()); }
 };
 
-Eigen::Matrix3d covariance_at(const std::array<JointPlate, 2>& plates, const Line& line,
-                              const std::array<PlaneAccuracy, 2>& accuracies, const SeamEnd& end) {
-  // A point moves by e0 out of the one plane, e1 out of the other, and s along the line.
-  Eigen::Matrix3d rows;
-  rows << plates[0].plane.normal.transpose(), plates[1].plane.normal.transpose(),
-      line.direction.transpose();
-  const Eigen::Matrix3d inverse = rows.inverse();
-  const Eigen::Vector3d variances(accuracies[0].height_at(end.along),
-                                  accuracies[1].height_at(end.along), end.variance);
-  return inverse * variances.asDiagonal() * inverse.transpose();
-}
+// Of a plate's plane beside the seam.
+struct PlaneAccuracy {
+  double middle = 0;       // place along the seam where it is known best; mm
+  double height = 0;       // variance at the seam, in the middle; mm2
+  double slope_along = 0;  // variance of its slope along the seam
+  double slope_away = 0;   // variance of its slope away from it
+  bool determined = false;
 
-}  // namespace
+  double height_at(double along) const {
+    return height + slope_along * (along - middle) * (along - middle);
+  }
+};
+using Planes = std::array<PlaneAccuracy, 2>;
 
+// From the points no farther than `distance` mm from the line. spacing: between stripes; mm.
 PlaneAccuracy plane_accuracy(const ScanCloud& cloud, const JointPlate& plate,
                              const JointPlate& other, const Line& line, double distance_mm,
                              double spacing_mm) {
   const Eigen::Vector3d away = away_from_seam(plate, other);
-  const std::size_t every = 1 + plate.points.size() / kCloud.small_sample;
+  const std::size_t every = 1 + plate.points.size() / kCloud.sample;
   std::vector<int> beside;
   beside.reserve(plate.points.size() / every + 1);
   Spread all;
@@ -75,7 +76,7 @@ PlaneAccuracy plane_accuracy(const ScanCloud& cloud, const JointPlate& plate,
   Spread means, places;
   for (const auto& [stripe, seen] : stripes)
     means.add(seen.off / seen.n), places.add(seen.t / seen.n);
-  if (means.n < kModel.plane_stripes || !(places.variance() > 0) || !(r.variance() > 0))
+  if (means.n < kModel.stripes_in_a_row || !(places.variance() > 0) || !(r.variance() > 0))
     return accuracy;
   const double per_stripe = means.variance() / (means.n - 2);
   const double per_point = off.squares / off.n / off.n / static_cast<double>(every);
@@ -88,57 +89,55 @@ PlaneAccuracy plane_accuracy(const ScanCloud& cloud, const JointPlate& plate,
   return accuracy;
 }
 
-std::array<PlaneAccuracy, 2> plane_accuracies(const ScanCloud& cloud, const Joint& joint,
-                                              const Scales& scales,
-                                              const SeamFindingSettings& settings) {
-  const auto of_plate = [&](int j) {
-    return plane_accuracy(cloud, joint.plates[j], joint.plates[1 - j], joint.line,
-                          settings.refit_distance_mm, scales.spacing);
-  };
-  return {of_plate(0), of_plate(1)};
+Eigen::Matrix3d covariance_between(const Joint& joint, const Planes& planes, const SeamEnd& end) {
+  // A point moves by e0 out of the one plane, e1 out of the other, and s along the line.
+  Eigen::Matrix3d rows;
+  rows << joint.plates[0].plane.normal.transpose(), joint.plates[1].plane.normal.transpose(),
+      joint.line.direction.transpose();
+  const Eigen::Matrix3d inverse = rows.inverse();
+  const Eigen::Vector3d variances(planes[0].height_at(end.along), planes[1].height_at(end.along),
+                                  end.variance);
+  return inverse * variances.asDiagonal() * inverse.transpose();
 }
 
-std::optional<SeamAccuracy> crossing_accuracy(const Joint& joint,
-                                              const std::array<PlaneAccuracy, 2>& accuracies,
-                                              const std::array<SeamEnd, 2>& ends) {
-  if (!accuracies[0].determined || !accuracies[1].determined) return std::nullopt;
-  SeamAccuracy accuracy;
-  accuracy.start = covariance_at(joint.plates, joint.line, accuracies, ends[0]);
-  accuracy.end = covariance_at(joint.plates, joint.line, accuracies, ends[1]);
-  double across = 0;  // of the direction, as a plane's slope along the seam tilts it
-  const double sine = joint.plates[0].plane.normal.cross(joint.plates[1].plane.normal).norm();
-  for (int j = 0; j < 2; ++j) {
-    across += accuracies[j].slope_along / (sine * sine);
-    accuracy.normals[j] = std::sqrt(accuracies[j].slope_along + accuracies[j].slope_away);
-  }
-  accuracy.direction = std::sqrt(across);
-  accuracy.angle = std::sqrt(accuracies[0].slope_away + accuracies[1].slope_away);
-  return accuracy;
-}
-
-std::optional<SeamAccuracy> parallel_accuracy(const Joint& joint,
-                                              const std::array<PlaneAccuracy, 2>& accuracies,
-                                              const std::array<SeamEnd, 2>& ends) {
-  if (!accuracies[0].determined || !accuracies[1].determined) return std::nullopt;
+// The line's own point is where the seam is known best.
+Eigen::Matrix3d covariance_beside(const Joint& joint, const Planes& planes, const SeamEnd& end) {
   const LineFit& seam = joint.parallel->seam;
   const Eigen::Vector3d& along = joint.line.direction;
   const Eigen::Vector3d across = joint.plates[0].plane.normal.cross(along).normalized();
   const Eigen::Vector3d out = along.cross(across);
-  const auto covariance_at = [&](const SeamEnd& place) -> Eigen::Matrix3d {
-    // The line's own point is where the seam is known best.
-    const double sideways = seam.variance + seam.slope_variance * place.along * place.along;
-    return place.variance * along * along.transpose() +
-           (sideways + kAnswer.across_floor * kAnswer.across_floor) * across * across.transpose() +
-           accuracies[0].height_at(place.along) * out * out.transpose();
-  };
+  const double sideways = seam.variance + seam.slope_variance * end.along * end.along +
+                          kAnswer.across_floor * kAnswer.across_floor;
+  return end.variance * along * along.transpose() + sideways * across * across.transpose() +
+         planes[0].height_at(end.along) * out * out.transpose();
+}
+
+// Of the seam's direction; between crossing plates a plane's slope along the seam tilts it.
+double direction_variance(const Joint& joint, const Planes& planes) {
+  if (joint.parallel) return joint.parallel->seam.slope_variance + planes[0].slope_along;
+  const Eigen::Vector3d sine = joint.plates[0].plane.normal.cross(joint.plates[1].plane.normal);
+  return (planes[0].slope_along + planes[1].slope_along) / sine.squaredNorm();
+}
+
+}  // namespace
+
+std::optional<SeamAccuracy> seam_accuracy(const ScanCloud& cloud, const Joint& joint,
+                                          const std::array<SeamEnd, 2>& ends, const Scales& scales,
+                                          const SeamFindingSettings& settings) {
+  Planes planes;
   SeamAccuracy accuracy;
-  accuracy.start = covariance_at(ends[0]);
-  accuracy.end = covariance_at(ends[1]);
-  accuracy.direction = std::sqrt(seam.slope_variance + accuracies[0].slope_along);
-  for (int j = 0; j < 2; ++j)
-    accuracy.normals[j] = std::sqrt(accuracies[j].slope_along + accuracies[j].slope_away);
+  for (int j = 0; j < 2; ++j) {
+    planes[j] = plane_accuracy(cloud, joint.plates[j], joint.plates[1 - j], joint.line,
+                               settings.refit_distance_mm, scales.spacing);
+    if (!planes[j].determined) return std::nullopt;
+    accuracy.normals[j] = std::sqrt(planes[j].slope_along + planes[j].slope_away);
+  }
+  const auto covariance_at = joint.parallel ? covariance_beside : covariance_between;
+  accuracy.start = covariance_at(joint, planes, ends[0]);
+  accuracy.end = covariance_at(joint, planes, ends[1]);
+  accuracy.direction = std::sqrt(direction_variance(joint, planes));
   if (joint.type != JointType::kV)
-    accuracy.angle = std::sqrt(accuracies[0].slope_away + accuracies[1].slope_away);
+    accuracy.angle = std::sqrt(planes[0].slope_away + planes[1].slope_away);
   return accuracy;
 }
 

@@ -1,11 +1,10 @@
-// How well a plate's plane, and the seam between two of them, are known from their points.
+// How well a seam is known from its plates' points.
 #pragma once
 
 #include <array>
 #include <optional>
 
 #include "services/seam_finding/model/joint.hpp"
-#include "services/seam_finding/model/plate.hpp"
 #include "services/seam_finding/model/scales.hpp"
 #include "services/seam_finding/model/scan_cloud.hpp"
 #include "services/seam_finding/model/seam.hpp"
@@ -14,37 +13,12 @@
 
 namespace arcstart::seam_finding {
 
-// Of a plate's plane beside the seam. What is common to a stripe (the position's noise) counts once
-// a stripe, what is not once a point.
-struct PlaneAccuracy {
-  double middle = 0;       // place along the seam where it is known best; mm
-  double height = 0;       // variance at the seam, in the middle; mm2
-  double slope_along = 0;  // variance of its slope along the seam
-  double slope_away = 0;   // variance of its slope away from it
-  bool determined = false;
-
-  double height_at(double along) const {
-    return height + slope_along * (along - middle) * (along - middle);
-  }
-};
-
-// From the points no farther than `distance` mm from the line. spacing: between stripes; mm.
-PlaneAccuracy plane_accuracy(const ScanCloud& cloud, const JointPlate& plate,
-                             const JointPlate& other, const Line& line, double distance_mm,
-                             double spacing_mm);
-std::array<PlaneAccuracy, 2> plane_accuracies(const ScanCloud& cloud, const Joint& joint,
-                                              const Scales& scales,
-                                              const SeamFindingSettings& settings);
-
-// Nothing where a plate is seen in too few places. Across a crossing seam its two planes tell it.
-std::optional<SeamAccuracy> crossing_accuracy(const Joint& joint,
-                                              const std::array<PlaneAccuracy, 2>& accuracies,
-                                              const std::array<SeamEnd, 2>& ends);
-
-// The same between parallel plates: across the seam from the plates' edges, out of the plates from
-// the first plate's plane.
-std::optional<SeamAccuracy> parallel_accuracy(const Joint& joint,
-                                              const std::array<PlaneAccuracy, 2>& accuracies,
-                                              const std::array<SeamEnd, 2>& ends);
+// Across a seam between crossing plates their planes tell it, as far as the plates are fitted again
+// beside it; between parallel ones their edges, and out of them the first plate's plane. What is
+// common to a stripe (the position's noise) counts once a stripe, what is not once a point. Nothing
+// where a plate is seen in too few places.
+std::optional<SeamAccuracy> seam_accuracy(const ScanCloud& cloud, const Joint& joint,
+                                          const std::array<SeamEnd, 2>& ends, const Scales& scales,
+                                          const SeamFindingSettings& settings);
 
 }  // namespace arcstart::seam_finding

@@ -2,13 +2,11 @@
 
 #include <Eigen/Geometry>
 #include <cmath>
+#include <functional>
+#include <vector>
 
 namespace arcstart::seam_finding {
 namespace {
-
-constexpr int kCamera = 4, kDistortion = 9, kTilt = 11, kOffset = 12, kTurn = 15, kPosition = 18;
-// Of the differences: px, 1, rad, mm, rad, mm.
-constexpr double kSteps[] = {1e-2, 1e-6, 1e-6, 1e-3, 1e-6, 1e-3};
 
 // The two axes in the laser plane about which its normal is tilted, as the calibration counts them.
 Eigen::Vector3d tilt_axis(const Eigen::Vector3d& normal, int which) {
@@ -18,58 +16,65 @@ Eigen::Vector3d tilt_axis(const Eigen::Vector3d& normal, int which) {
   return which == 0 ? first : Eigen::Vector3d(normal.cross(first));
 }
 
-double step_of(int parameter) {
-  return kSteps[parameter < kCamera       ? 0
-                : parameter < kDistortion ? 1
-                : parameter < kTilt       ? 2
-                : parameter < kOffset     ? 3
-                : parameter < kTurn       ? 4
-                                          : 5];
+using Change = std::function<void(Calibration&, double)>;
+
+// Of each parameter but the time offset, in the order of the calibration's covariance.
+std::vector<Change> changes() {
+  std::vector<Change> all;
+  for (double SensorModel::*number :
+       {&SensorModel::fx, &SensorModel::fy, &SensorModel::cx, &SensorModel::cy})
+    all.push_back([number](Calibration& set, double by) { set.sensor_model.*number += by; });
+  for (std::size_t i = 0; i < SensorModel{}.distortion.size(); ++i)
+    all.push_back([i](Calibration& set, double by) { set.sensor_model.distortion[i] += by; });
+  for (const int which : {0, 1})
+    all.push_back([which](Calibration& set, double by) {
+      Eigen::Vector3d& normal = set.sensor_model.laser_plane.normal;
+      normal = (normal + by * tilt_axis(normal, which)).normalized();
+    });
+  all.push_back([](Calibration& set, double by) { set.sensor_model.laser_plane.offset += by; });
+  for (const int axis : {0, 1, 2})
+    all.push_back([axis](Calibration& set, double by) {
+      const Eigen::AngleAxisd turn(by, Eigen::Vector3d::Unit(axis));
+      set.T_tool_camera.linear() = turn.toRotationMatrix() * set.T_tool_camera.linear();
+    });
+  for (const int axis : {0, 1, 2})
+    all.push_back([axis](Calibration& set, double by) {
+      set.T_tool_camera.translation() += by * Eigen::Vector3d::Unit(axis);
+    });
+  return all;
 }
 
-// In base, of the set with one parameter changed.
-std::optional<Eigen::Vector3d> place_of(const Calibration& calibration, const SeenPoint& point,
-                                        int parameter, double change) {
-  SensorModel model = calibration.sensor_model;
-  RigidTransform T_tool_camera = calibration.T_tool_camera;
-  if (parameter < kCamera) {
-    double* const camera[] = {&model.fx, &model.fy, &model.cx, &model.cy};
-    *camera[parameter] += change;
-  } else if (parameter < kDistortion) {
-    model.distortion[static_cast<std::size_t>(parameter - kCamera)] += change;
-  } else if (parameter < kTilt) {
-    Eigen::Vector3d& normal = model.laser_plane.normal;
-    normal = (normal + change * tilt_axis(normal, parameter - kDistortion)).normalized();
-  } else if (parameter < kOffset) {
-    model.laser_plane.offset += change;
-  } else if (parameter < kTurn) {
-    const Eigen::AngleAxisd turn(change, Eigen::Vector3d::Unit(parameter - kOffset));
-    T_tool_camera.linear() = turn.toRotationMatrix() * T_tool_camera.linear();
-  } else {
-    T_tool_camera.translation() += change * Eigen::Vector3d::Unit(parameter - kTurn);
-  }
-  const auto seen = camera_point(model, point.u, point.v);
+// In base.
+std::optional<Eigen::Vector3d> place_of(Calibration set, const SeenPoint& point,
+                                        const Change& change, double by) {
+  change(set, by);
+  const auto seen = camera_point(set.sensor_model, point.u, point.v);
   if (!seen) return std::nullopt;
-  return point.T_base_tool * (T_tool_camera * *seen);
+  return point.T_base_tool * (set.T_tool_camera * *seen);
 }
 
 }  // namespace
 
+// A parameter is moved by its own deviation: over that the place is as good as linear.
 std::optional<Eigen::Matrix3d> calibration_covariance(const Calibration& calibration,
                                                       const SeenPoint& point) {
-  constexpr int kParameters = Calibration::kParameters;
-  if (calibration.covariance.size() != kParameters * kParameters) return std::nullopt;
-  Eigen::Matrix<double, 3, kParameters> derivative;
-  for (int parameter = 0; parameter < kPosition; ++parameter) {
-    const double step = step_of(parameter);
-    const auto up = place_of(calibration, point, parameter, step);
-    const auto down = place_of(calibration, point, parameter, -step);
-    if (!up || !down) return std::nullopt;
-    derivative.col(parameter) = (*up - *down) / (2 * step);
+  using Square =
+      Eigen::Matrix<double, Calibration::kParameters, Calibration::kParameters, Eigen::RowMajor>;
+  if (calibration.covariance.size() != Square::SizeAtCompileTime) return std::nullopt;
+  const Eigen::Map<const Square> covariance(calibration.covariance.data());
+  auto derivative = Eigen::Matrix<double, 3, Calibration::kParameters>::Zero().eval();
+  int parameter = 0;
+  for (const Change& change : changes()) {
+    const double step = std::sqrt(covariance(parameter, parameter));
+    if (step > 0) {  // else it is known
+      const auto up = place_of(calibration, point, change, step);
+      const auto down = place_of(calibration, point, change, -step);
+      if (!up || !down) return std::nullopt;
+      derivative.col(parameter) = (*up - *down) / (2 * step);
+    }
+    ++parameter;
   }
-  derivative.col(kPosition) = point.velocity;  // time offset
-  const Eigen::Map<const Eigen::Matrix<double, kParameters, kParameters, Eigen::RowMajor>>
-      covariance(calibration.covariance.data());
+  derivative.col(parameter) = point.velocity;  // time offset
   const Eigen::Matrix3d result = derivative * covariance * derivative.transpose();
   if (!result.allFinite()) return std::nullopt;
   return result;

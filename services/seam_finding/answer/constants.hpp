@@ -16,9 +16,8 @@ struct AnswerConstants {
   double least_torch_share = 0.1;
   // mm; from the seam, where a plate is straight again - bench.
   double straight_from = 4;
-  // mm; a bead lies so near the seam: a fillet's on the plates, that of parallel plates on their
-  // top. And stands so far before both - bench.
-  double tack_reach = 8, parallel_tack_reach = 6, tack_height = 1;
+  // mm; a bead lies so near the seam, and stands so far before both plates - bench.
+  double tack_reach = 8, tack_height = 1;
 };
 inline constexpr AnswerConstants kAnswer;
 

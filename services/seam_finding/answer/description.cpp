@@ -45,6 +45,21 @@ void set_gap(SeamResult& result) {
   result.gap_deviation = deviation / count;
 }
 
+bool in_one_plane(const Joint& joint) {
+  return joint.type == JointType::kButt || joint.type == JointType::kV;
+}
+
+// Normals of the two faces between which the torch stands. For parallel plates the second face is
+// virtual: for a lap the upper plate's edge face, for the others both, a right angle about their
+// normal.
+std::array<Eigen::Vector3d, 2> torch_faces(const Joint& joint) {
+  const Eigen::Vector3d& normal = joint.plates[0].plane.normal;
+  if (joint.type == JointType::kLap) return {normal, joint.plates[joint.parallel->lower].away};
+  if (!in_one_plane(joint)) return {normal, joint.plates[1].plane.normal};
+  const Eigen::Vector3d across = normal.cross(joint.line.direction).normalized();
+  return {(normal + across).normalized(), (normal - across).normalized()};
+}
+
 SeamPlate face_of(const Joint& joint, int j) {
   SeamPlate face;
   face.plane = joint.plates[j].plane;
@@ -99,8 +114,8 @@ SeamResult describe(Joint joint, Findings findings, const SeamFindingSettings& s
   result.polyline = polyline_through(result.stations, result.start, result.end, kAnswer.straight);
   const double origin = joint.line.along(result.start);
   for (SeamMeasurement& place : result.stations) place.along -= origin;
-  result.torch = torch_at(result.start, result.direction, findings.torch_faces,
-                          {findings.one_plane ? 0 : settings.torch_work_angle_deg * kDegree,
+  result.torch = torch_at(result.start, result.direction, torch_faces(joint),
+                          {in_one_plane(joint) ? 0 : settings.torch_work_angle_deg * kDegree,
                            settings.torch_travel_angle_deg * kDegree, settings.approach_mm});
   if (result.thickness >= 0) remark({Code::kThickness, result.thickness});
   if (result.groove_angle >= 0) remark({Code::kGroove, result.groove_angle});

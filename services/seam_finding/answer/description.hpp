@@ -16,10 +16,8 @@ namespace arcstart::seam_finding {
 struct Findings {
   std::array<SeamEnd, 2> ends;  // start and end, along the joint's line
   std::optional<SeamAccuracy> accuracy;
-  std::vector<SeamMeasurement> stations;       // along counts on the joint's line
-  std::array<Eigen::Vector3d, 2> torch_faces;  // normals of the faces between which it stands
-  bool one_plane = false;                      // these are a right angle about the plates' normal
-  bool with_stripes = true;                    // else how well the ends are seen is not said
+  std::vector<SeamMeasurement> stations;  // along counts on the joint's line
+  bool with_stripes = true;               // else how well the ends are seen is not said
 };
 
 // A found seam.

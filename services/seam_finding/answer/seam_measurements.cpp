@@ -38,10 +38,10 @@ void for_each_on_bead(const ScanCloud& cloud, int first, int last,
 }
 
 // Where the stripes' heights over the two planes put the seam.
-std::vector<SeamMeasurement> places_by_heights(const ScanCloud& cloud,
-                                               const std::array<JointPlate, 2>& plates,
-                                               const Line& line, double begin, double end,
-                                               double spacing_mm) {
+std::vector<SeamMeasurement> places_by_heights(const ScanCloud& cloud, const Joint& joint,
+                                               double begin, double end, double spacing_mm) {
+  const std::array<JointPlate, 2>& plates = joint.plates;
+  const Line& line = joint.line;
   std::map<int, Seen> by_stripe;
   const auto key = [&](int i, double along) {
     return cloud.organised() ? cloud.origins[i].stripe
@@ -54,7 +54,7 @@ std::vector<SeamMeasurement> places_by_heights(const ScanCloud& cloud,
       const Eigen::Vector3d p = cloud.points[i] - line.point;
       const double along = line.direction.dot(p), squared = p.squaredNorm() - along * along;
       if (squared < kAnswer.straight_from * kAnswer.straight_from ||
-          squared > kModel.straight_beside * kModel.straight_beside || cloud.origins[i].segment_end)
+          squared > kModel.beside_seam * kModel.beside_seam || cloud.origins[i].segment_end)
         continue;
       const int place = key(i, along);
       if (last == nullptr || place != last_place) last = &by_stripe[place], last_place = place;
@@ -122,7 +122,7 @@ std::vector<SeamMeasurement> places_by_stations(const ScanCloud& cloud, const Jo
   }
   std::vector<int> bead(places.size());
   for (const Eigen::Vector3d& point : cloud.points) {
-    if (joint.line.distance(point) > kAnswer.parallel_tack_reach ||
+    if (joint.line.distance(point) > kAnswer.tack_reach ||
         joint.plates[0].plane.signed_distance(point) < kAnswer.tack_height ||
         joint.plates[1].plane.signed_distance(point) < kAnswer.tack_height)
       continue;
@@ -156,15 +156,10 @@ std::vector<SeamMeasurement> with_root_gaps(const ScanCloud& scan, const Joint& 
 
 }  // namespace
 
-std::vector<SeamMeasurement> measure_crossing_seam(const ScanCloud& cloud, const Joint& joint,
-                                                   double begin, double end, double spacing_mm) {
-  return with_root_gaps(cloud, joint,
-                        places_by_heights(cloud, joint.plates, joint.line, begin, end, spacing_mm));
-}
-
-std::vector<SeamMeasurement> measure_parallel_seam(const ScanCloud& cloud, const Joint& joint,
-                                                   double begin, double end, double spacing_mm) {
-  return with_root_gaps(cloud, joint, places_by_stations(cloud, joint, begin, end, spacing_mm));
+std::vector<SeamMeasurement> measure_seam(const ScanCloud& cloud, const Joint& joint, double begin,
+                                          double end, double spacing_mm) {
+  const auto places = joint.parallel ? places_by_stations : places_by_heights;
+  return with_root_gaps(cloud, joint, places(cloud, joint, begin, end, spacing_mm));
 }
 
 Polyline polyline_through(const std::vector<SeamMeasurement>& places, const Eigen::Vector3d& start,

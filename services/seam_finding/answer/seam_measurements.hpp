@@ -13,10 +13,8 @@ namespace arcstart::seam_finding {
 // stripes for every `spacing` of it. Where the residual was not measured the position is the
 // line's. Of a tee, an inside corner and a lap with the root gap, of a butt joint or groove with
 // its width at the top.
-std::vector<SeamMeasurement> measure_crossing_seam(const ScanCloud& cloud, const Joint& joint,
-                                                   double begin, double end, double spacing_mm);
-std::vector<SeamMeasurement> measure_parallel_seam(const ScanCloud& cloud, const Joint& joint,
-                                                   double begin, double end, double spacing_mm);
+std::vector<SeamMeasurement> measure_seam(const ScanCloud& cloud, const Joint& joint, double begin,
+                                          double end, double spacing_mm);
 
 // The line from begin to end where no place is farther from it than `straight_mm`; else through the
 // places, averaged over three so that no single one bends it.

@@ -2,8 +2,6 @@
 // scripts/bench seam judges the number (its table of the background above all).
 #pragma once
 
-#include <cstddef>
-
 #include "services/seam_finding/cloud/constants.hpp"
 
 namespace arcstart::seam_finding {
@@ -16,12 +14,6 @@ struct BackgroundConstants {
   // Spread of a window across its stripes, in spacings - between that of two stripes, 0.5, and of
   // three, 0.82.
   double least_spread = 0.6;
-  // Spacings that a point reaches where there is no plane - bench.
-  double rough_spacings = 0.75;
-  // Points of a cell that are looked at for the nearest one - bench.
-  std::size_t nearest_crowd = 512;
-  // mm; from the borders of a cell a point is safely in it - above the rounding of doubles.
-  double within_cell = 1e-6;
   // Share of a face's points that lie in its plane as background - bench.
   double continues = 0.25;
 };

@@ -18,9 +18,6 @@ struct CoverageConstants {
   // mm; but no less than this, for a stripe's end is lost before an edge - bench: rows lap, butt,
   // v.
   double least_slack = 1;
-  // mm; from the seam's line, where a round edge begins, at most - the largest outside radius of a
-  // cold-formed section of 6 mm, 2.4 times its wall (EN 10219-2), and a gap.
-  double widest_round = 18;
   // mm; a seam and its plates go on behind an interruption that is no longer - bench.
   double bridge = 20;
   // Stripe spacings to a lone stripe that is part of the seam, at most - one stripe may lie

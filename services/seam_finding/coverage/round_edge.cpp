@@ -66,10 +66,10 @@ double round_edge(const ScanCloud& cloud, const std::vector<int>& points, const 
       farthest = std::max(farthest, r);
     }
     const double r = edge.from_line(points[nearest]);
-    if (r > kCoverage.widest_round) continue;
+    if (r > kModel.widest_round) continue;
     ++stripes;
     const double at = r > 0 ? edge.begins(points[nearest], scales.tolerance) : 0;
-    if (at > 0 && at <= kCoverage.widest_round && farthest - r > at) begins.push_back(at);
+    if (at > 0 && at <= kModel.widest_round && farthest - r > at) begins.push_back(at);
   }
   return 2 * static_cast<int>(begins.size()) > stripes ? median(begins) : 0;
 }

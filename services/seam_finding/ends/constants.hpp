@@ -44,8 +44,6 @@ struct EndConstants {
   // px square to the edge; what all its places have in common: light ends over edges in many ways -
   // bench.
   double common_deviation = 0.1;
-  // Along the seam for each mm away, of an edge, at most - cut up to 31 degrees.
-  double steepest = 0.6;
   // Share of plates that are not cut square to the seam - bench: wild.
   double slanted_share = 0.2;
   // Slopes up to the steepest that stand for all where none is told - a tenth of the reach.

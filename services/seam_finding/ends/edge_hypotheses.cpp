@@ -74,7 +74,7 @@ std::vector<Told> slopes_told(const std::vector<StripeEvidence>& evidence, const
       const double apart = b->away - a->away;
       if (std::abs(apart) < kEnds.direction_base) continue;
       const double slope = (b->along - a->along) / apart, foot = a->along - slope * a->away;
-      if (std::abs(slope) > kEnds.steepest || foot < grid.first || foot > grid.at(grid.count - 1) ||
+      if (std::abs(slope) > kModel.steepest_edge || foot < grid.first || foot > grid.at(grid.count - 1) ||
           leaving(*a, slope) < kEnds.least_slant || leaving(*b, slope) < kEnds.least_slant)
         continue;
       double w = 0, r = 0, t = 0, rr = 0, rt = 0;
@@ -110,14 +110,14 @@ std::vector<Slope> slopes_of(const std::vector<StripeEvidence>& evidence, const 
                              const SquareEdge& square) {
   std::vector<Slope> slopes;
   add_normal(square.slope, square.deviation, 1 - kEnds.slanted_share, slopes);
-  const double density = kEnds.slanted_share / (2 * kEnds.steepest);
+  const double density = kEnds.slanted_share / (2 * kModel.steepest_edge);
   for (const Told& told : slopes_told(evidence, grid)) {
     if (std::abs(told.slope - square.slope) < 3 * std::hypot(square.deviation, told.deviation))
       continue;
     add_told(told.slope, told.deviation, density, slopes);
   }
   for (int i = 0; i < kEnds.slanted_steps; ++i)
-    slopes.push_back({kEnds.steepest * ((2.0 * i + 1) / kEnds.slanted_steps - 1),
+    slopes.push_back({kModel.steepest_edge * ((2.0 * i + 1) / kEnds.slanted_steps - 1),
                       {{kEnds.roughness.back().first, kEnds.slanted_share / kEnds.slanted_steps}}});
   return slopes;
 }

@@ -4,9 +4,9 @@
 #include <iterator>
 #include <utility>
 
-#include "services/seam_finding/geometry/joint_geometry.hpp"
 #include "services/seam_finding/joints/constants.hpp"
 #include "services/seam_finding/joints/crossing_joints.hpp"
+#include "services/seam_finding/joints/parallel_joints.hpp"
 
 namespace arcstart::seam_finding {
 namespace {
@@ -33,8 +33,21 @@ void sort_by_score(std::vector<Joint>& joints) {
 std::vector<Joint> find_joints(const ScanView& scan, std::vector<Face> faces, const Scales& scales,
                                const SeamFindingSettings& settings) {
   faces = turned_to_sensor(scan.points_for(Stage::kSearch), std::move(faces));
-  auto joints = crossing_plates().candidates(scan, faces, scales, settings);
-  auto parallel = parallel_plates().candidates(scan, faces, scales, settings);
+  const auto wanted = wanted_types(settings.joint_type);
+  std::vector<Joint> joints, parallel;
+  for (const JointType type : wanted) {
+    if (is_parallel(type)) continue;
+    auto found =
+        find_crossing_joints(scan.points_for(Stage::kSearch), scan.workpiece(Stage::kSearch), faces,
+                             type, scales, settings);
+    std::move(found.begin(), found.end(), std::back_inserter(joints));
+  }
+  if (std::any_of(wanted.begin(), wanted.end(), is_parallel)) {
+    // They hang on where stripes pass from the one plate to the other: all points are needed.
+    for (Face& face : faces)
+      face.points = scan.all_on_plane(std::move(face.points), face.plane, scales.tolerance);
+    parallel = find_parallel_joints(scan.points_for(Stage::kMeasure), faces, scales, settings);
+  }
   std::erase_if(joints, [&](const Joint& crossing) {
     return std::any_of(parallel.begin(), parallel.end(),
                        [&](const Joint& joint) { return is_part_of(crossing, joint); });

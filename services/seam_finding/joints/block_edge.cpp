@@ -28,7 +28,7 @@ bool closes_end(const ScanCloud& cloud, const Face& face, const Joint& joint,
 double share_deep_behind(const ScanCloud& cloud, const Face& face, const Joint& joint) {
   const auto deep = std::count_if(face.points.begin(), face.points.end(), [&](int i) {
     return std::all_of(joint.plates.begin(), joint.plates.end(), [&](const JointPlate& plate) {
-      return plate.plane.signed_distance(cloud.points[i]) < -kJoints.thickest_plate;
+      return plate.plane.signed_distance(cloud.points[i]) < -kModel.widest_cut;
     });
   });
   return static_cast<double>(deep) / static_cast<double>(face.points.size());

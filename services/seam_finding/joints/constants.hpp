@@ -22,9 +22,6 @@ struct JointConstants {
 
   // Crossing plates.
 
-  // mm; outside a corner a plate reaches so far, else it is the edge face of the other - bench: row
-  // corner.
-  double least_outside = 22;
   // Share of a plate before the other, at least - bench.
   double least_concave = 0.8;
   // mm; a plate is seen so far in under the other through a root gap - bench: row root_gap.
@@ -45,9 +42,6 @@ struct JointConstants {
   // mm; beyond the seam's ends, what its planes are fitted to - bench.
   double overhang = 3;
 
-  // mm; behind both plates of an outside corner, what lies deeper is no plate's cut - as wide as
-  // the thickest plate, of 20 mm, and its edge's place.
-  double thickest_plate = 22;
   // rad; of a plate's cut from square to the seam, at most - cuts up to 31 deg.
   double most_cut_turn = 35 * kDegree;
   // Share of an end's face that lies so deep, at least, where the body is solid - bench.

@@ -103,7 +103,7 @@ Reason flaw_of(const ScanCloud& cloud, const Joint& joint, double narrower_plate
   if (std::abs(off) > 1) return {Code::kAngle, plates_angle(joint)};
   if (joint.concavity < kJoints.least_concave)
     return {outside ? Code::kNotConvex : Code::kNotConcave};
-  if (outside && narrower_plate < kJoints.least_outside) return {Code::kEdgeOfOnePlate};
+  if (outside && narrower_plate < kModel.widest_cut) return {Code::kEdgeOfOnePlate};
   if (joint.explained < kJoints.least_explained) return {Code::kTooMuchElse};
   if (cloud.organised() && joint.coverage.stripes < settings.stripes_min)
     return {Code::kFewStripesCross, static_cast<double>(joint.coverage.stripes)};

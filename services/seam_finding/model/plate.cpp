@@ -17,7 +17,7 @@ std::vector<int> without_fragments(const ScanCloud& cloud, const std::vector<int
     for (last = first + 1; last < points.size(); ++last) {
       const PointOrigin &a = cloud.origins[points[last - 1]], &b = cloud.origins[points[last]];
       if (a.stripe != b.stripe || a.segment != b.segment ||
-          points[last] - points[last - 1] > kModel.gap_places)
+          points[last] - points[last - 1] > kModel.sure_points)
         break;
     }
     const bool ends =

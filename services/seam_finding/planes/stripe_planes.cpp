@@ -72,7 +72,7 @@ std::vector<Piece> straight_pieces(const ScanCloud& cloud, const std::vector<int
     for (last = first + 1; last < indices.size() && last - first < kPlanes.piece_points; ++last)
       if (cloud.origins[indices[last]].stripe != origin.stripe ||
           cloud.origins[indices[last]].segment != origin.segment ||
-          indices[last] - indices[last - 1] > kModel.gap_places)
+          indices[last] - indices[last - 1] > kModel.sure_points)
         break;
     if (!of_stripe.empty() && of_stripe.front().stripe != origin.stripe) close_stripe();
     part(cloud, std::span(indices).subspan(first, last - first), tolerance, of_stripe);
@@ -138,7 +138,7 @@ std::vector<Plane> planes_of_stripes(const ScanCloud& cloud, const std::vector<i
   for (std::size_t i = 0; i < pieces.size(); ++i) {
     if (pieces[i].taken) continue;
     const Chain chain = chain_from(pieces[i], std::span(pieces).subspan(i + 1), search);
-    if (chain.pieces.size() < kModel.plane_stripes) continue;
+    if (chain.pieces.size() < kModel.stripes_in_a_row) continue;
     for (Piece* piece : chain.pieces) piece->taken = true;
     if (!search.accept || search.accept(chain.plane))
       found.emplace_back(chain.sums.weight(), chain.plane);

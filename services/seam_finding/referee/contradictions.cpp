@@ -4,8 +4,8 @@
 #include <cmath>
 #include <optional>
 
+#include "services/seam_finding/fit/order_statistics.hpp"
 #include "services/seam_finding/referee/constants.hpp"
-#include "services/seam_finding/referee/quantile.hpp"
 
 namespace arcstart::seam_finding {
 namespace {
@@ -16,7 +16,7 @@ using Code = Reason::Code;
 Reason of_shape(const PlateShape& shape, const PlateView& view) {
   if (!shape.known || std::abs(shape.height_at_seam(shape.middle)) > kReferee.bend)
     return {Code::kPlateNotShown};
-  const double sure = kReferee.deviations;
+  const double sure = kFit.outlier;
   const bool round =
       -shape.curvature > 1 / kReferee.round && -shape.curvature > sure * shape.curvature_deviation;
   if (round && shape.width < kReferee.narrow) return {Code::kPlateRound, -1 / shape.curvature};
@@ -34,8 +34,8 @@ bool within(const StripeOnPlate& stripe, double from, double to) {
 
 // Plates side by side end at the seam: else there is none.
 Reason at_edge(const SeamEdges& edges) {
-  if (edges.stripes >= kReferee.shown_stripes &&
-      edges.leaving < kReferee.edges_shown * edges.stripes)
+  if (edges.stripes >= kModel.stripes_in_a_row &&
+      edges.leaving < kReferee.by_accident * edges.stripes)
     return {Code::kNoEdgeAtSeam, static_cast<double>(edges.leaving),
             static_cast<double>(edges.stripes)};
   return {};
@@ -48,10 +48,10 @@ std::optional<double> unbroken(const PlateView& view, const StripeOnPlate& strip
   int others = 0;  // in a row
   for (const Place& place : stripe.places) {
     if (place.away < view.begin + kReferee.beside_seam) continue;
-    if (place.look == Look::kBefore && place.away - last < kReferee.plate_gap) return std::nullopt;
-    if (place.look == Look::kBefore || place.away - last > kReferee.plate_gap) break;
+    if (place.look == Look::kBefore && place.away - last < kModel.piece_gap) return std::nullopt;
+    if (place.look == Look::kBefore || place.away - last > kModel.piece_gap) break;
     others = place.look == Look::kOn ? 0 : others + 1;
-    if (others == kReferee.others_in_a_row) break;
+    if (others == kModel.sure_off_plate) break;
     if (place.look == Look::kOn) reached = last = place.away;
   }
   return reached;
@@ -62,17 +62,17 @@ std::optional<double> unbroken(const PlateView& view, const StripeOnPlate& strip
 // thick.
 Reason of_cut(const PlateView& view, double length) {
   std::vector<double> reaches;
-  int shown = 0, wide = 0;
+  int shown = 0, narrow = 0;
   for (const StripeOnPlate& stripe : view.stripes) {
     if (!within(stripe, 0, length) || stripe.at_seam == AtSeam::kOff) continue;
     const auto reach = unbroken(view, stripe);
     if (reach && *reach < 0) continue;
     ++shown;
-    wide += !reach || *reach >= kReferee.widest_cut;
+    narrow += reach && *reach < kModel.widest_cut;
     if (reach) reaches.push_back(*reach);
   }
-  if (shown >= kReferee.shown_stripes && wide < kReferee.wide_share * shown)
-    return {Code::kPlateTooNarrow, quantile_of(reaches, 0.5)};
+  if (shown >= kModel.stripes_in_a_row && narrow > kReferee.shown_share * shown)
+    return {Code::kPlateTooNarrow, median(reaches)};
   return {};
 }
 
@@ -90,7 +90,7 @@ Reason along(const std::array<PlateView, 2>& views, double length, double spacin
     if (a == AtSeam::kOff || b == AtSeam::kOff) ++not_both;
   }
   const int known = both + not_both;
-  if (known >= kReferee.shown_stripes && both < kReferee.shown_share * known)
+  if (known >= kModel.stripes_in_a_row && both < kReferee.shown_share * known)
     return {Code::kSeamNotShown, static_cast<double>(both), static_cast<double>(known)};
   return {};
 }
@@ -107,7 +107,7 @@ Reason contradiction_of(const SeamResult& seam, const std::array<PlateView, 2>& 
   for (int j = 0; j < 2; ++j) {
     // A plate reaches away from the seam within its plane.
     const SeamPlate& plate = views[j].plate;
-    if (std::abs(plate.away.dot(plate.plane.normal)) > kReferee.out_of_plane)
+    if (std::abs(plate.away.dot(plate.plane.normal)) > kReferee.turned)
       return {Code::kPlateNotShown};
     if (const Reason reason = of_shape(shapes[j], views[j])) return reason;
   }

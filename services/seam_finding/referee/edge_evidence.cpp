@@ -35,7 +35,7 @@ class StripeEvidence {
   StripeEvidence(const StripeOnPlate& stripe, double begin, double width, const ClaimedEnd& end)
       : stripe_(stripe),
         begin_(begin),
-        from_(begin + kReferee.first_place),
+        from_(begin + kReferee.step / 2),
         to_(begin + width),
         end_(end) {
     for (const Place& place : stripe.places) {
@@ -57,7 +57,7 @@ class StripeEvidence {
     }
     const Split split = best_split(known_);
     const int all = static_cast<int>(known_.size());
-    if (split.wrong > kReferee.misfit * all) return evidence;
+    if (split.wrong > kReferee.by_accident * all) return evidence;
     add(split.on_first ? 0 : split.at, split.on_first ? split.at : all, Look::kOn, evidence.on);
     add(split.on_first ? split.at : 0, split.on_first ? all : split.at, Look::kThrough,
         evidence.off);

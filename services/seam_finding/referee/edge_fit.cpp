@@ -109,7 +109,7 @@ EdgeFit fit_edge(const std::vector<EdgeEvidence>& all, double play) {
   fit.contradicting = kInfinite;
   const Marks marks = marks_of(all);
   std::vector<Limit> limits;
-  const int steps = static_cast<int>(std::lround(kReferee.steepest / kReferee.steepness_step));
+  const int steps = static_cast<int>(std::lround(kModel.steepest_edge / kReferee.steepness_step));
   for (int i = 0; i <= 2 * steps; ++i) {
     const double slope = (i % 2 == 0 ? i / 2 : -(i + 1) / 2) * kReferee.steepness_step;
     EdgeFoot foot = foot_of(marks, slope, play);

@@ -32,8 +32,9 @@ std::vector<const StripeOnPlate*> stripes_about(const PlateView& view, const Cla
   if (anchor == inward.size()) return {};
   std::vector<const StripeOnPlate*> stripes;
   // From inside, so that an edge's slope is seen: the stripes that cross it far from the seam.
-  const std::size_t deepest = std::min(inward.size(), anchor + kReferee.stripes_inside);
-  for (std::size_t i = deepest; i-- > 0;) {
+  const double slanting = kModel.steepest_edge * kReferee.reach;
+  for (std::size_t i = inward.size(); i-- > 0;) {
+    if (end.out(inward[i]->crossing) < end.out(inward[anchor]->crossing) - slanting) continue;
     stripes.push_back(inward[i]);
     if (i >= anchor) continue;
     const bool off = inward[i]->at_seam == AtSeam::kOff;
@@ -104,7 +105,7 @@ EndBounds bounds_of(const PlateView& view, SeamSide side, double along, double s
   const EdgeFit beside = fit_within(view, stripes, own_shadow, near, end);
   const EdgeFit whole = width > near ? fit_within(view, stripes, own_shadow, width, end) : beside;
   bounds.crossings = whole.crossings;
-  bounds.straight = whole.contradicting <= kReferee.contradicting * whole.crossings;
+  bounds.straight = whole.contradicting <= kReferee.by_accident * whole.crossings;
   EdgeFoot foot = beside.foot;
   if (bounds.straight) {
     const EdgeFoot both{std::max(beside.foot.least, whole.foot.least),

@@ -3,11 +3,11 @@
 #include <algorithm>
 #include <vector>
 
+#include "services/seam_finding/fit/order_statistics.hpp"
 #include "services/seam_finding/referee/constants.hpp"
 #include "services/seam_finding/referee/contradictions.hpp"
 #include "services/seam_finding/referee/corner/corner_radius.hpp"
 #include "services/seam_finding/referee/plate_looks.hpp"
-#include "services/seam_finding/referee/quantile.hpp"
 #include "services/seam_finding/referee/stripe_light.hpp"
 
 namespace arcstart::seam_finding {
@@ -18,7 +18,7 @@ double spacing_of(const PlateView& view) {
   for (std::size_t k = 1; k < view.stripes.size(); ++k)
     steps.push_back(view.stripes[k].crossing - view.stripes[k - 1].crossing);
   if (steps.empty()) return 0;
-  return quantile_of(steps, 0.5);
+  return median(steps);
 }
 
 // Of the places where the plates are claimed, those that show them; -1 where there are none.

@@ -3,8 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "services/seam_finding/fit/order_statistics.hpp"
 #include "services/seam_finding/referee/constants.hpp"
-#include "services/seam_finding/referee/quantile.hpp"
 
 namespace arcstart::seam_finding {
 namespace {
@@ -26,20 +26,10 @@ void set_looks(const PlateShape& shape, double begin, StripeOnPlate& stripe, dou
     else
       ++others;
   }
-  if (static_cast<int>(heights.size()) < kReferee.sure_places ||
+  if (static_cast<int>(heights.size()) < kModel.sure_points ||
       static_cast<int>(heights.size()) < others)
     return;
-  risen += quantile_of(heights, 0.5);
-}
-
-// Whether the stripe's places, rising away, are as they follow each other along the stripe, or just
-// the other way round.
-bool in_order(const std::vector<Place>& places) {
-  if (places.size() < 3) return true;
-  const bool rising = places[0].point < places[1].point;
-  for (std::size_t i = 2; i < places.size(); ++i)
-    if ((places[i - 1].point < places[i].point) != rising) return false;
-  return true;
+  risen += median(heights);
 }
 
 // Between two neighbours of a segment that look alike, what lies there looks so, too: the scan was
@@ -58,25 +48,13 @@ void append_between(const Place& a, const Place& b, std::vector<Place>& places) 
   }
 }
 
-// scratch: keeps its memory from stripe to stripe.
-void fill_in(StripeOnPlate& stripe, std::vector<Place>& scratch) {
+// along: keeps its memory from stripe to stripe.
+void fill_in(StripeOnPlate& stripe, std::vector<Place>& along) {
   std::vector<Place>& places = stripe.places;
-  scratch.clear();
-  if (in_order(places)) {
-    // As mostly: neighbours away are neighbours along the stripe.
-    const std::size_t count = places.size();
-    const bool rising = count < 2 || places[0].point < places[1].point;
-    for (std::size_t i = 1; i < count; ++i)
-      append_between(places[rising ? i - 1 : count - i], places[rising ? i : count - 1 - i],
-                     scratch);
-  } else {
-    std::vector<Place> along = places;
-    sort_by(&Place::point, along);
-    for (std::size_t i = 1; i < along.size(); ++i) append_between(along[i - 1], along[i], scratch);
-  }
-  if (scratch.empty()) return;
-  places.insert(places.end(), scratch.begin(), scratch.end());
-  sort_by(&Place::away, places);
+  along = places;
+  sort_by(&Place::point, along);
+  for (std::size_t i = 1; i < along.size(); ++i) append_between(along[i - 1], along[i], places);
+  if (places.size() > along.size()) sort_by(&Place::away, places);
 }
 
 // A single place at the plate's height beside what stands on the plate is on that thing's flank.
@@ -100,8 +78,8 @@ AtSeam seen_at_seam(const PlateView& view, const StripeOnPlate& stripe) {
   }
   const int known = on + off;
   if (known == 0) return before > 0 ? AtSeam::kHidden : AtSeam::kUnknown;
-  if (on >= kReferee.clear * known) return AtSeam::kOn;
-  if (off >= kReferee.clear * known) return AtSeam::kOff;
+  if (on >= kReferee.nearly_all * known) return AtSeam::kOn;
+  if (off >= kReferee.nearly_all * known) return AtSeam::kOff;
   return AtSeam::kPart;
 }
 
@@ -117,7 +95,7 @@ void set_width(double length, double tolerance, PlateView& view) {
       if (place.along < 0 || place.along > length) continue;
       others = place.look == Look::kOn ? 0 : others + 1;
       cut_short = place.look == Look::kBefore;
-      if (others == kReferee.others_in_a_row && reached >= 0) break;
+      if (others == kModel.sure_off_plate && reached >= 0) break;
       if (place.look == Look::kOn) reached = place.away;
     }
     if (reached > 0) (cut_short ? cut : widths).push_back(reached);
@@ -125,8 +103,8 @@ void set_width(double length, double tolerance, PlateView& view) {
   // Where nearly all are cut short, they must do.
   if (3 * widths.size() < cut.size()) widths.insert(widths.end(), cut.begin(), cut.end());
   if (widths.empty()) return;
-  view.width = std::max(0.0, quantile_of(widths, 0.25) - 2 * tolerance);
-  view.widest = std::max(0.0, quantile_of(widths, 0.75) - 2 * tolerance);
+  view.width = std::max(0.0, upper_quantile(widths, 0.25) - 2 * tolerance);
+  view.widest = std::max(0.0, upper_quantile(widths, 0.75) - 2 * tolerance);
 }
 
 }  // namespace
@@ -139,7 +117,7 @@ void set_looks(const PlateShape& shape, double length, PlateView& view) {
       stripes.begin(), stripes.end(),
       [&](const StripeOnPlate& stripe) { return stripe.crossing < length / 2; });
   std::vector<double> heights;
-  std::vector<Place> between;
+  std::vector<Place> along;
   double risen = 0;
   for (auto stripe = middle; stripe != stripes.end(); ++stripe)
     set_looks(shape, view.begin, *stripe, risen, heights);
@@ -147,7 +125,7 @@ void set_looks(const PlateShape& shape, double length, PlateView& view) {
   for (auto stripe = middle; stripe != stripes.begin();)
     set_looks(shape, view.begin, *--stripe, risen, heights);
   for (StripeOnPlate& stripe : stripes) {
-    fill_in(stripe, between);
+    fill_in(stripe, along);
     leave_out_flanks(stripe);
     stripe.at_seam = seen_at_seam(view, stripe);
   }

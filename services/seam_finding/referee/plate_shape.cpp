@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "services/seam_finding/cloud/constants.hpp"
 #include "services/seam_finding/referee/constants.hpp"
 
 namespace arcstart::seam_finding {
@@ -42,7 +43,7 @@ std::vector<ShapePlace> places_within(const PlateView& view, double length, cons
       if (place.along > 0 && place.along < length && place.away > scale.begin &&
           place.away < scale.begin + scale.width && std::abs(place.height) < 2 * kReferee.bend)
         all.push_back(&place);
-  const std::size_t step = all.size() / kReferee.shape_places + 1;
+  const std::size_t step = 1 + all.size() / kCloud.sample;
   std::vector<ShapePlace> some;
   some.reserve(all.size() / step + 1);
   for (std::size_t i = 0; i < all.size(); i += step)
@@ -73,7 +74,7 @@ struct Sums {
 PlateShape shape_within(const PlateView& view, double length, double from, double width) {
   PlateShape shape;
   Scale scale{length / 2, length / 2, view.begin + from, width};
-  shape.tolerance = kReferee.most_tolerance;
+  shape.tolerance = kReferee.bend;
   shape.middle = scale.middle, shape.half = scale.half;
   std::vector<ShapePlace> places = places_within(view, length, scale);
   Terms solution = Terms::Zero();
@@ -95,11 +96,11 @@ PlateShape shape_within(const PlateView& view, double length, double from, doubl
     }
     shape.noise = std::sqrt(squares / std::max(1.0, kept - kTerms));
     shape.width = farthest - scale.begin;
-    cut = std::clamp(kReferee.cut * shape.noise, kReferee.least_tolerance, kReferee.bend);
+    cut = std::clamp(kFit.outlier * shape.noise, kReferee.least_tolerance, kReferee.bend);
   }
   shape.known = true;
-  shape.tolerance = std::clamp(kReferee.tolerance * shape.noise, kReferee.least_tolerance,
-                               kReferee.most_tolerance);
+  shape.tolerance =
+      std::clamp(kFit.on_plane * shape.noise, kReferee.least_tolerance, kReferee.bend);
   // What a stripe is wrong by, it is wrong by in all its places.
   const double stripes = static_cast<double>(view.stripes.size());
   const double alike = std::max(1.0, count / std::max(1.0, stripes));
@@ -128,7 +129,7 @@ double PlateShape::height_at(double along, double away) const {
 }
 
 PlateShape shape_of(const PlateView& view, double length) {
-  const PlateShape wide = shape_within(view, length, kReferee.shape_from, kReferee.shape_width);
+  const PlateShape wide = shape_within(view, length, kReferee.near_seam, kModel.beside_seam);
   const bool good = wide.known && wide.tilt_deviation < kReferee.turned &&
                     std::abs(wide.height_at_seam(wide.middle)) < kReferee.bend;
   return good ? wide : shape_within(view, length, kReferee.beside_seam, kReferee.narrow);

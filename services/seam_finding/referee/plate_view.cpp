@@ -3,8 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "services/seam_finding/fit/order_statistics.hpp"
 #include "services/seam_finding/referee/constants.hpp"
-#include "services/seam_finding/referee/quantile.hpp"
 
 namespace arcstart::seam_finding {
 namespace {
@@ -42,7 +42,7 @@ bool set_place(const Frame& frame, const LightOver& light, const Eigen::Vector3d
     at = light.source + share * (point - light.source);
   }
   place.away = frame.away.dot(at - frame.origin);
-  if (place.away < -kReferee.across_seam || place.away > kReferee.reach) return false;
+  if (place.away < -kReferee.near_seam || place.away > kReferee.reach) return false;
   place.along = frame.along.dot(at - frame.origin);
   return true;
 }
@@ -59,7 +59,6 @@ bool set_trace(const Frame& frame, const StripeLight& light, const Eigen::Vector
   if (frame.plane.signed_distance(light.source) <= 0 || frame.plane.signed_distance(camera) <= 0)
     return false;
   const double slope = light.plane.normal.dot(frame.along);
-  if (std::abs(slope) < kReferee.least_slope) return false;
   stripe.crossing = -light.plane.signed_distance(frame.origin) / slope;
   stripe.lean = -light.plane.normal.dot(frame.away) / slope;
   const Eigen::Vector3d place = frame.origin + stripe.crossing * frame.along;
@@ -82,12 +81,12 @@ void add_places(std::span<const ThinnedPoint> points, const Frame& frame, const 
   stripe.places = scratch;
 }
 
-// Of half the stripes at the middle of the seam that nothing covers: the first of two places in a
-// row on the claimed plane.
+// Of half the stripes between the ends that nothing covers: the first of two places in a row on the
+// claimed plane.
 double begin_of(const PlateView& view, double length) {
   std::vector<double> begins;
   for (const StripeOnPlate& stripe : view.stripes) {
-    if (std::abs(stripe.crossing - length / 2) > kReferee.middle * length) continue;
+    if (stripe.crossing < 0 || stripe.crossing > length) continue;
     const Place* last = nullptr;
     for (const Place& place : stripe.places) {
       if (place.away < view.plate.inset - kReferee.step / 2) continue;
@@ -101,11 +100,11 @@ double begin_of(const PlateView& view, double length) {
     }
   }
   if (begins.empty()) return view.plate.inset;
-  const double half = quantile_of(begins, 0.5);
+  const double half = median(begins);
   // What is nearer than the places stand to each other is the seam itself.
   return half < view.plate.inset + kReferee.step / 2
              ? view.plate.inset
-             : std::min(half, view.plate.inset + kReferee.farthest_begin);
+             : std::min(half, view.plate.inset + kModel.widest_round);
 }
 
 }  // namespace
@@ -146,7 +145,7 @@ PlateView view_of(const ScanCloud& cloud, const ThinnedScan& thinned,
     StripeOnPlate stripe;
     stripe.stripe = static_cast<int>(k);
     if (!set_trace(frame, *lights[k], cloud.stripes[k].camera_centre, stripe)) continue;
-    if (stripe.crossing < -kReferee.beyond || stripe.crossing > length + kReferee.beyond) continue;
+    if (stripe.crossing < -kReferee.reach || stripe.crossing > length + kReferee.reach) continue;
     add_places(thinned.of_stripe(k), frame, *lights[k], scratch, stripe);
     view.stripes.push_back(std::move(stripe));
   }

@@ -30,10 +30,9 @@ class EndRuling {
     widen_beside();
     if (visibility() == EndVisibility::kNotDetermined) return without_deviation();
     if (!bounds_.anchored) return undetermined(Code::kStartNotShown, Code::kEndNotShown, 0);
-    const double allowed = std::max(kReferee.allowed, kReferee.deviations * claimed_deviation());
-    const double too_far = std::max(kReferee.contradicted, allowed);
-    if (bounds_.least > too_far) return contradicted(bounds_.least);
-    if (bounds_.most < -too_far) return contradicted(bounds_.most);
+    const double allowed = std::max(kReferee.allowed, kFit.outlier * claimed_deviation());
+    if (bounds_.least > allowed) return contradicted(bounds_.least);
+    if (bounds_.most < -allowed) return contradicted(bounds_.most);
     const double farthest = std::max(bounds_.most, -bounds_.least);
     if (farthest <= allowed) return;
     const bool open =
@@ -60,8 +59,8 @@ class EndRuling {
 
   void contradicted(double by) {
     SecondPlace& second = start_ ? seam_.start_second : seam_.end_second;
-    const double least = std::max(bounds_.least, -kReferee.beyond),
-                 most = std::min(bounds_.most, kReferee.beyond);
+    const double least = std::max(bounds_.least, -kReferee.reach),
+                 most = std::min(bounds_.most, kReferee.reach);
     second.place = (start_ ? seam_.start : seam_.end) +
                    (start_ ? -1 : 1) * (least + most) / 2 * seam_.direction;
     second.weight = kReferee.second_weight;
@@ -83,7 +82,7 @@ class EndRuling {
   // The farthest place where the end may be.
   void set_reach(double farthest) {
     if (!seam_.accuracy) return;
-    const double deviation = farthest / kReferee.deviations;
+    const double deviation = farthest / kFit.outlier;
     set_variance_along(seam_.direction, deviation * deviation, covariance());
   }
 
@@ -91,7 +90,7 @@ class EndRuling {
     const PlateShape& shape = examination_.shapes[j];
     if (!shape.known || !seam_.accuracy) return;
     const double off = shape.height_at_seam(start_ ? 0 : 2 * shape.half);
-    if (std::abs(off) < kReferee.off) return;
+    if (std::abs(off) < kReferee.allowed / 2) return;
     covariance() += off * off * seam_.normals[j] * seam_.normals[j].transpose();
   }
 
@@ -108,8 +107,7 @@ class EndRuling {
     }
     if (plates == 0 || !seam_.accuracy) return;
     off /= plates;
-    if (std::abs(off) > kReferee.off_beside)
-      covariance() += off * off * across * across.transpose();
+    if (std::abs(off) > kReferee.place) covariance() += off * off * across * across.transpose();
   }
 
   const Examination& examination_;

@@ -16,7 +16,7 @@ struct EdgePlace {
 // Least squares, then once more without what lies off; false with too few.
 bool fit_course(std::vector<EdgePlace> places, double length, SeamEdges& edges) {
   for (int pass = 0; pass < 2; ++pass) {
-    if (static_cast<int>(places.size()) < kReferee.course_stripes) return false;
+    if (static_cast<int>(places.size()) < kFit.line_places) return false;
     double n = 0, x = 0, y = 0, xx = 0, xy = 0;
     for (const EdgePlace& place : places) {
       n += 1, x += place.along, y += place.off;
@@ -29,7 +29,7 @@ bool fit_course(std::vector<EdgePlace> places, double length, SeamEdges& edges) 
     edges.at_end = edges.at_start + slope * length;
     std::vector<EdgePlace> kept;
     for (const EdgePlace& place : places)
-      if (std::abs(place.off - edges.at_start - slope * place.along) < kReferee.edge_off / 2)
+      if (std::abs(place.off - edges.at_start - slope * place.along) < kReferee.step / 2)
         kept.push_back(place);
     places = std::move(kept);
   }
@@ -39,7 +39,7 @@ bool fit_course(std::vector<EdgePlace> places, double length, SeamEdges& edges) 
 // On the plate from beside the seam to the other plate's side: a stripe that begins beside the seam
 // may have its edge in a shadow.
 bool runs_across(const PlateView& view, const StripeOnPlate& stripe) {
-  const double beyond = view.plate.inset - kReferee.edge_off;
+  const double beyond = view.plate.inset - kReferee.step;
   return stripe.at_seam == AtSeam::kOn && !edge_in(view, stripe) &&
          std::any_of(stripe.places.begin(), stripe.places.end(), [beyond](const Place& place) {
            return place.look == Look::kOn && place.away < beyond;
@@ -52,7 +52,7 @@ std::array<bool, 2> end_at_seam(const SeamResult& seam) {
   if (seam.joint_type == "butt" || seam.joint_type == "v") return {true, true};
   if (seam.joint_type != "lap") return {false, false};
   const auto over = [&](int plate) {
-    return seam.faces[plate].plane.signed_distance(seam.start) < -kReferee.off;
+    return seam.faces[plate].plane.signed_distance(seam.start) < -kReferee.allowed / 2;
   };
   return {over(0), over(1)};
 }
@@ -63,7 +63,7 @@ std::optional<double> edge_in(const PlateView& view, const StripeOnPlate& stripe
   bool ends = false;
   for (auto place = stripe.places.rbegin(); place != stripe.places.rend(); ++place) {
     if (!last && place->away > from + kReferee.near_seam) continue;
-    if (place->look != Look::kOn || (last && *last - place->away > kReferee.place_gap)) {
+    if (place->look != Look::kOn || (last && *last - place->away > kModel.piece_gap)) {
       if (last) return last;
       continue;
     }
@@ -83,15 +83,16 @@ SeamEdges edges_of(const PlateView& view, double length) {
     const auto edge = edge_in(view, stripe);
     if (!edge) continue;
     const double off = *edge - view.plate.inset;
-    edges.leaving += std::abs(off) < kReferee.edge_off;
-    if (std::abs(off) < 2 * kReferee.edge_off) places.push_back({stripe.crossing, off});
+    edges.leaving += std::abs(off) < kReferee.step;
+    if (std::abs(off) < 2 * kReferee.step) places.push_back({stripe.crossing, off});
   }
   edges.known = fit_course(std::move(places), length, edges);
   return edges;
 }
 
 void leave_out_across(const SeamEdges& edges, PlateView& view) {
-  if (edges.stripes < kReferee.shown_stripes || edges.leaving < kReferee.nearly_all * edges.stripes)
+  if (edges.stripes < kModel.stripes_in_a_row ||
+      edges.leaving < kReferee.nearly_all * edges.stripes)
     return;
   for (StripeOnPlate& stripe : view.stripes)
     if (runs_across(view, stripe)) {

@@ -1,66 +1,47 @@
 #include "services/seam_finding/referee/stripe_light.hpp"
 
-#include <Eigen/Eigenvalues>
 #include <algorithm>
 #include <cmath>
 
+#include "services/seam_finding/cloud/constants.hpp"
+#include "services/seam_finding/fit/order_statistics.hpp"
+#include "services/seam_finding/fit/plane_fit.hpp"
 #include "services/seam_finding/referee/constants.hpp"
-#include "services/seam_finding/referee/quantile.hpp"
 
 namespace arcstart::seam_finding {
 namespace {
 
-// In the tool's frame, of each stripe a few points spread over it.
+// In the tool's frame, evenly taken.
 std::vector<Eigen::Vector3d> sample(const ScanCloud& cloud) {
   std::vector<Eigen::Vector3d> points;
-  points.reserve(2 * static_cast<std::size_t>(kReferee.light_points) * cloud.stripes.size());
-  for (const ScanStripe& stripe : cloud.stripes) {
-    const int step = std::max(1, stripe.count / kReferee.light_points);
-    const Eigen::Quaterniond to_tool = stripe.tool_turn.conjugate();
-    for (int i = 0; i < stripe.count; i += step)
-      points.push_back(to_tool * (cloud.points[stripe.first + i] - stripe.tool_position));
+  const std::size_t every = 1 + cloud.points.size() / kCloud.sample;
+  for (std::size_t i = 0; i < cloud.points.size(); i += every) {
+    const ScanStripe& stripe = cloud.stripes[cloud.origins[i].stripe];
+    points.push_back(stripe.tool_turn.conjugate() * (cloud.points[i] - stripe.tool_position));
   }
   return points;
 }
 
-// Nothing where they lie on a line.
-std::optional<Plane> plane_through(const std::vector<Eigen::Vector3d>& points) {
-  if (points.size() < 3) return std::nullopt;
-  Eigen::Vector3d mean = Eigen::Vector3d::Zero();
-  for (const Eigen::Vector3d& p : points) mean += p;
-  mean /= static_cast<double>(points.size());
-  Eigen::Matrix3d scatter = Eigen::Matrix3d::Zero();
-  for (const Eigen::Vector3d& p : points) {
-    const Eigen::Vector3d d = p - mean;
-    for (int column = 0; column < 3; ++column)  // the lower half is what the solver reads
-      for (int row = column; row < 3; ++row) scatter(row, column) += d(row) * d(column);
-  }
-  const Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d> solver(scatter);
-  const double width = std::sqrt(solver.eigenvalues()(1) / static_cast<double>(points.size()));
-  if (!(width > kReferee.light_width)) return std::nullopt;
-  const Eigen::Vector3d normal = solver.eigenvectors().col(0);
-  return Plane{normal, -normal.dot(mean)};
-}
-
-// Without the points that lie off it, as outliers of a cloud from elsewhere may.
+// Without the points that lie off it, as outliers of a cloud from elsewhere may. Nothing where they
+// lie on a line.
 std::optional<Plane> robust_plane(std::vector<Eigen::Vector3d> points) {
-  std::optional<Plane> plane = plane_through(points);
   std::vector<double> distances;
-  distances.reserve(points.size());
-  for (int pass = 0; plane && pass < 2; ++pass) {
+  for (int pass = 0; !points.empty(); ++pass) {
+    PlaneSums sums(points.front());
+    for (const Eigen::Vector3d& p : points) sums.add(p);
+    const PlaneSums::Fit fit = sums.fit();
+    if (!(fit.spread[0] > kReferee.light_width)) break;
+    if (pass == 2) return fit.plane;
     distances.clear();
     for (const Eigen::Vector3d& p : points)
-      distances.push_back(std::abs(plane->signed_distance(p)));
-    const double farthest =
-        std::max(kReferee.light_cut * quantile_of(distances, 0.5), kReferee.light_noise);
-    points.erase(std::remove_if(points.begin(), points.end(),
-                                [&](const Eigen::Vector3d& p) {
-                                  return std::abs(plane->signed_distance(p)) > farthest;
-                                }),
-                 points.end());
-    plane = plane_through(points);
+      distances.push_back(std::abs(fit.plane.signed_distance(p)));
+    const double farthest = std::max(kReferee.light_width,
+                                     kFit.on_plane * kFit.median_to_deviation * median(distances));
+    std::erase_if(points, [&](const Eigen::Vector3d& p) {
+      return std::abs(fit.plane.signed_distance(p)) > farthest;
+    });
   }
-  return plane;
+  return std::nullopt;
 }
 
 }  // namespace

@@ -3,10 +3,11 @@
 #include <algorithm>
 #include <cmath>
 
+#include "services/seam_finding/scan/scan_limits.hpp"
+
 namespace arcstart::seam_finding {
 namespace {
 
-constexpr std::size_t kLongestScan = 100'000;  // stripes: a seq beyond is damage, not a scan
 constexpr std::size_t kUsualPoints = 1 << 17;  // room from the begin: moved in no profile's time
 constexpr double kFarthest = 1e5;              // mm: a point farther away is damage, too
 
@@ -42,7 +43,7 @@ CloudBuilder::CloudBuilder(std::int64_t first_seq) : next_seq_(first_seq) {
 }
 
 void CloudBuilder::miss_until(std::int64_t seq) {
-  for (; next_seq_ < seq && cloud_.stripes.size() < kLongestScan; ++next_seq_)
+  for (; next_seq_ < seq && cloud_.stripes.size() < kMostProfiles; ++next_seq_)
     end_stripe(cloud_, ScanStripe::Seen::kMissing);
 }
 

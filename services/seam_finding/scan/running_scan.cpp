@@ -2,7 +2,7 @@
 
 #include <algorithm>
 
-#include "services/seam_finding/scan/scan_collector.hpp"
+#include "services/seam_finding/scan/scan_limits.hpp"
 
 namespace arcstart::seam_finding {
 namespace {
@@ -24,7 +24,7 @@ void RunningScan::take(const profile_t& profile, const StoredBackground* backgro
   if (!builder_) return;  // finished
   // What comes late, or twice, or beyond all bounds is left to finish().
   if (!seqs_.empty() && profile.seq <= seqs_.back()) return;
-  if (builder_->cloud().size() + profile.count > kMostScanPoints) return;
+  if (builder_->cloud().points.size() + profile.x.size() > kMostPoints) return;
   if (background_id_ == 0 && prepared_.segmentation.size() == 0) background_id_ = id_of(background);
   builder_->add(profile);
   downsample(builder_->cloud(), prepared_.downsampled);

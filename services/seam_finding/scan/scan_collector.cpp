@@ -3,12 +3,13 @@
 #include <algorithm>
 #include <arcstart/seam_t.hpp>
 
+#include "services/seam_finding/scan/scan_limits.hpp"
+
 namespace arcstart::seam_finding {
 namespace {
 
-// What comes over the network must not fill the memory.
+// As in scan_limits.hpp.
 constexpr std::size_t kMostOpen = 4;
-constexpr std::size_t kMostProfiles = 20'000;  // of a scan: 20 minutes at 14 Hz
 constexpr std::size_t kMostAnswered = 1000;
 
 // A scan's end as the next scan's state still tells it; known: what was heard of it before.
@@ -92,7 +93,7 @@ void ScanCollector::take(const profile_t& profile) {
   if (!scan || scan->run_id != profile.run_id || !scan->refusal.empty()) return;
   scan->newest_seq = std::max(scan->newest_seq, profile.seq);
   if (scan->profiles.try_emplace(profile.seq, profile).second) scan->points += profile.x.size();
-  if (scan->profiles.size() <= kMostProfiles && scan->points <= kMostScanPoints) return;
+  if (scan->profiles.size() <= kMostProfiles && scan->points <= kMostPoints) return;
   scan->refusal = refuse_scan(seam_t::TOO_MANY_POINTS);
   scan->profiles.clear();
 }

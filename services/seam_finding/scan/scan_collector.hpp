@@ -13,8 +13,6 @@
 
 namespace arcstart::seam_finding {
 
-inline constexpr int kMostScanPoints = 2'000'000;  // are kept of a scan
-
 struct CollectedScan {
   scan_t state{};                   // as it ended; of a scan that never did, what is known of it
   std::vector<profile_t> profiles;  // in order of seq, each once

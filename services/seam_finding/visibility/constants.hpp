@@ -17,8 +17,6 @@ struct VisibilityConstants {
   // Sine of the angle between a line of sight and a plate, at least - bench.
   double least_sight = 0.1;
 
-  // mm; between points on one piece of a plate, at most - bench.
-  double piece_gap = 4;
   // What lies in a plate rises from it by no more, mm for each mm, and deviations for its noise -
   // bench: row glare.
   double rise = 0.04, sure_rise = 2.5;

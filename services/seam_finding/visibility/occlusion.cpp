@@ -31,7 +31,7 @@ int points_past(const ScanCloud& cloud, const std::array<JointPlate, 2>& plates,
       const auto through = seen_through(cloud, plates[j].plane, i, 2 * tolerance);
       if (!through) continue;
       const double r = away_from_seam(plates[j], plates[1 - j]).dot(*through - line.point);
-      past[j] += r > kVisibility.near_seam && r < kModel.straight_beside;
+      past[j] += r > kVisibility.near_seam && r < kModel.beside_seam;
     }
   }
   return std::max(past[0], past[1]);

@@ -106,7 +106,7 @@ PlateStripes plate_stripes(const ScanCloud& cloud, const JointPlate& plate, cons
     std::vector<int>& run = stripes.runs[k];
     const auto parted = std::adjacent_find(run.begin(), run.end(), [&](int a, int b) {
       return b > a + 1 &&
-             std::abs(reach(cloud.points[b]) - reach(cloud.points[a])) > kVisibility.piece_gap;
+             std::abs(reach(cloud.points[b]) - reach(cloud.points[a])) > kModel.piece_gap;
     });
     if (parted == run.end()) continue;
     std::vector<double> reaches, behind;
@@ -118,7 +118,7 @@ PlateStripes plate_stripes(const ScanCloud& cloud, const JointPlate& plate, cons
         behind.push_back(reach(*through));
     for (std::size_t j = 1; j < reaches.size(); ++j) {
       const double from = reaches[j - 1], to = reaches[j];
-      if (to - from <= kVisibility.piece_gap ||
+      if (to - from <= kModel.piece_gap ||
           std::count_if(behind.begin(), behind.end(),
                         [&](double r) { return r > from && r < to; }) < kModel.sure_off_plate)
         continue;

@@ -47,7 +47,7 @@ Joint joint_of(const Made& made) {
 
 TEST_CASE("a straight seam is a line, and a tack weld on it is seen where it lies") {
   const Made made = make([](double) { return 0.0; }, true);
-  const auto places = measure_crossing_seam(made.cloud, joint_of(made), 0, 100, 2);
+  const auto places = measure_seam(made.cloud, joint_of(made), 0, 100, 2);
   REQUIRE(places.size() == 50);
   for (const SeamMeasurement& place : places) {
     CHECK(place.tack == (place.along > 40 && place.along < 52));
@@ -61,7 +61,7 @@ TEST_CASE("a straight seam is a line, and a tack weld on it is seen where it lie
 TEST_CASE("a seam that bows is a polyline that follows it") {
   const auto bow = [](double x) { return 2 * std::sin(M_PI * x / 100); };
   const Made made = make(bow, false);
-  const auto places = measure_crossing_seam(made.cloud, joint_of(made), 0, 100, 2);
+  const auto places = measure_seam(made.cloud, joint_of(made), 0, 100, 2);
   const Polyline line = polyline_through(places, {0, 0, 0}, {100, 0, 0}, 0.5);
   REQUIRE(line.points.size() == 50);
   for (std::size_t i = 1; i + 1 < line.points.size(); ++i)

@@ -4,8 +4,8 @@
 #include <cmath>
 #include <limits>
 
+#include "services/seam_finding/fit/order_statistics.hpp"
 #include "services/seam_finding/referee/constants.hpp"
-#include "services/seam_finding/referee/quantile.hpp"
 
 namespace arcstart::seam_finding {
 namespace {
@@ -32,7 +32,7 @@ std::optional<double> corner_radius(const ScanCloud& cloud, const std::vector<in
     const Eigen::Vector3d from_start = cloud.points[i] - seam.start;
     const double along = seam.direction.dot(from_start);
     const double off = (from_start - along * seam.direction).norm();
-    if (along < 0 || along > length || off > kReferee.farthest_begin) continue;
+    if (along < 0 || along > length || off > kModel.widest_round) continue;
     AroundCorner& stripe = stripes[cloud.origins[i].stripe];
     stripe.nearest = std::min(stripe.nearest, off);
     const double first = -seam.faces[0].plane.signed_distance(cloud.points[i]),
@@ -46,14 +46,14 @@ std::optional<double> corner_radius(const ScanCloud& cloud, const std::vector<in
     if (!std::isfinite(stripe.nearest)) continue;
     ++seen;
     if (stripe.radii.empty()) continue;
-    const double radius = quantile_of(stripe.radii, 0.5);
+    const double radius = median(stripe.radii);
     if (stripe.nearest > kReferee.round_clearance * radius) radii.push_back(radius);
   }
-  if (static_cast<int>(radii.size()) < kReferee.shown_stripes ||
+  if (static_cast<int>(radii.size()) < kModel.stripes_in_a_row ||
       static_cast<double>(radii.size()) < kReferee.shown_share * seen)
     return std::nullopt;
-  const double radius = quantile_of(radii, 0.5);
-  const double spread = quantile_of(radii, 0.75) - quantile_of(radii, 0.25);
+  const double radius = median(radii);
+  const double spread = upper_quantile(radii, 0.75) - upper_quantile(radii, 0.25);
   if (spread > kReferee.one_radius * radius) return std::nullopt;
   return radius;
 }
