@@ -33,10 +33,7 @@ Split best_split(const Known& known) {
 class StripeEvidence {
  public:
   StripeEvidence(const StripeOnPlate& stripe, double begin, double width, const ClaimedEnd& end)
-      : stripe_(stripe),
-        from_(begin + kReferee.first_place),
-        to_(begin + width),
-        end_(end) {
+      : stripe_(stripe), from_(begin + kReferee.first_place), to_(begin + width), end_(end) {
     for (const Place& place : stripe.places) {
       if (place.away < from_) continue;
       if (place.look == Look::kBefore)

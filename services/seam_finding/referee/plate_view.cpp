@@ -83,9 +83,9 @@ void add_places(std::span<const ThinnedPoint> points, const Frame& frame, const 
 }
 
 // At the middle of the seam, of the stripes that nothing covers: the first of two places in a row
-// that lie on the claimed plane and along it, as on a round edge they do not. Beside the seam itself
-// the other plate comes as near to it. One stripe of four shows the plate so near: others may leave
-// a tack or a tool there.
+// that lie on the claimed plane and along it, as on a round edge they do not. Beside the seam
+// itself the other plate comes as near to it. One stripe of four shows the plate so near: others
+// may leave a tack or a tool there.
 double begin_of(const PlateView& view, double length) {
   const double at_seam = view.plate.inset + kReferee.step / 2;
   std::vector<double> begins, steps;
