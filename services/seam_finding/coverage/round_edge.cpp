@@ -68,8 +68,11 @@ double round_edge(const ScanCloud& cloud, const std::vector<int>& points, const 
     const double r = edge.from_line(points[nearest]);
     if (r > kModel.widest_round) continue;
     ++stripes;
-    const double at = r > 0 ? edge.begins(points[nearest], scales.tolerance) : 0;
-    if (at > 0 && at <= kModel.widest_round && farthest - r > at) begins.push_back(at);
+    // Of a low arc much hides behind itself: what is seen leaves the plane by less than a
+    // tolerance.
+    const double at = r > 0 ? edge.begins(points[nearest], scales.tolerance / 2) : 0;
+    if (at > 2 * scales.tolerance && at <= kModel.widest_round && farthest - r > at)
+      begins.push_back(at);
   }
   return 2 * static_cast<int>(begins.size()) > stripes ? median(begins) : 0;
 }

@@ -12,8 +12,9 @@ namespace {
 
 using Code = Reason::Code;
 
-// A plate that is no plane, or lies otherwise than is claimed.
-Reason of_shape(const PlateShape& shape, const PlateView& view) {
+// A plate that is no plane, or lies otherwise than is claimed. narrowest: no plate reaches less far
+// from the seam; mm.
+Reason of_shape(const PlateShape& shape, const PlateView& view, double narrowest) {
   if (!shape.known || std::abs(shape.height_at_seam(shape.middle)) > kReferee.bend)
     return {Code::kPlateNotShown};
   const double sure = kFit.outlier;
@@ -24,7 +25,8 @@ Reason of_shape(const PlateShape& shape, const PlateView& view) {
   if (std::abs(shape.tilt) > std::max(kReferee.turned, sure * shape.tilt_deviation))
     return {Code::kPlateTurned, shape.tilt};
   const double width = view.widest - view.begin;
-  if (width < kReferee.narrowest) return {Code::kPlateTooNarrow, width};
+  if (width < kReferee.narrowest || (view.widest < narrowest && !view.cut_short))
+    return {Code::kPlateTooNarrow, width};
   return {};
 }
 
@@ -104,12 +106,15 @@ Reason contradiction_of(const SeamResult& seam, const std::array<PlateView, 2>& 
                         const std::array<std::optional<SeamEdges>, 2>& edges, double spacing) {
   const double length = (seam.end - seam.start).norm();
   if (views[0].stripes.size() < 2 || views[1].stripes.size() < 2) return {Code::kSeamNotCrossed};
+  // Side by side a plate may be seen through a gap alone; crossing the other one it stands there,
+  // and what is as low as a bar or a small block is none.
+  const double narrowest = edges[0] || edges[1] ? 0 : kReferee.narrow;
   for (int j = 0; j < 2; ++j) {
     // A plate reaches away from the seam within its plane.
     const SeamPlate& plate = views[j].plate;
     if (std::abs(plate.away.dot(plate.plane.normal)) > kReferee.turned)
       return {Code::kPlateNotShown};
-    if (const Reason reason = of_shape(shapes[j], views[j])) return reason;
+    if (const Reason reason = of_shape(shapes[j], views[j], narrowest)) return reason;
   }
   for (int j = 0; j < 2; ++j)
     if (edges[j])

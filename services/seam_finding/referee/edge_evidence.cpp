@@ -33,11 +33,7 @@ Split best_split(const Known& known) {
 class StripeEvidence {
  public:
   StripeEvidence(const StripeOnPlate& stripe, double begin, double width, const ClaimedEnd& end)
-      : stripe_(stripe),
-        begin_(begin),
-        from_(begin + kReferee.step / 2),
-        to_(begin + width),
-        end_(end) {
+      : stripe_(stripe), from_(begin + kReferee.step / 2), to_(begin + width), end_(end) {
     for (const Place& place : stripe.places) {
       if (place.away < from_) continue;
       if (place.look == Look::kBefore)
@@ -67,7 +63,7 @@ class StripeEvidence {
 
  private:
   EdgeMark mark(double away) const {
-    return {end_.out(stripe_.crossing + stripe_.lean * away), away - begin_};
+    return {end_.out(stripe_.crossing + stripe_.lean * away), away};
   }
 
   void add(int begin, int behind, Look look, std::vector<EdgeMark>& marks) const {
@@ -78,7 +74,7 @@ class StripeEvidence {
       last = known_[i];
     }
     for (const Place* place : {first, last})
-      if (place) marks.push_back({end_.out(place->along), place->away - begin_});
+      if (place) marks.push_back({end_.out(place->along), place->away});
   }
 
   void add_dark(double from, double to, EdgeEvidence& evidence) const {
@@ -96,7 +92,7 @@ class StripeEvidence {
   }
 
   const StripeOnPlate& stripe_;
-  double begin_, from_, to_;  // away from the seam; mm
+  double from_, to_;  // away from the seam; mm
   const ClaimedEnd& end_;
   Known known_;
   bool nothing_before_ = true;

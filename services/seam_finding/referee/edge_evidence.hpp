@@ -14,8 +14,8 @@ struct ClaimedEnd {
   double out(double along_seam) const { return outward * (along_seam - along); }
 };
 
-// A place that the plate must reach, or must not: outward from the claimed end, and away from where
-// the plate begins; mm.
+// A place that the plate must reach, or must not: outward from the claimed end, and away from the
+// seam; mm.
 struct EdgeMark {
   double out, away;
 };

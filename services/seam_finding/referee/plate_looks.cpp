@@ -101,7 +101,8 @@ void set_width(double length, double tolerance, PlateView& view) {
     if (reached > 0) (cut_short ? cut : widths).push_back(reached);
   }
   // Where nearly all are cut short, they must do.
-  if (3 * widths.size() < cut.size()) widths.insert(widths.end(), cut.begin(), cut.end());
+  view.cut_short = 3 * widths.size() < cut.size();
+  if (view.cut_short) widths.insert(widths.end(), cut.begin(), cut.end());
   if (widths.empty()) return;
   view.width = std::max(0.0, upper_quantile(widths, 0.25) - 2 * tolerance);
   view.widest = std::max(0.0, upper_quantile(widths, 0.75) - 2 * tolerance);

@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "services/seam_finding/cloud/constants.hpp"
+#include "services/seam_finding/fit/order_statistics.hpp"
 #include "services/seam_finding/referee/constants.hpp"
 
 namespace arcstart::seam_finding {
@@ -35,19 +36,30 @@ struct ShapePlace {
   double residual;      // over the shape as it was fitted last; mm
 };
 
-// Between the ends and in the strip, near the plane; evenly thinned out to some thousand.
+// Between the ends and in the strip, near the plane; evenly thinned out to some thousand. A place's
+// first residual is its height over half of those of its stripe: what lies beside the plate, as the
+// cut or the round edge at its far side, draws no fit then, however the plate is bent.
 std::vector<ShapePlace> places_within(const PlateView& view, double length, const Scale& scale) {
-  std::vector<const Place*> all;
-  for (const StripeOnPlate& stripe : view.stripes)
+  std::vector<ShapePlace> all;
+  std::vector<double> heights;
+  for (const StripeOnPlate& stripe : view.stripes) {
+    const std::size_t before = all.size();
+    heights.clear();
     for (const Place& place : stripe.places)
       if (place.along > 0 && place.along < length && place.away > scale.begin &&
-          place.away < scale.begin + scale.width && std::abs(place.height) < 2 * kReferee.bend)
-        all.push_back(&place);
+          place.away < scale.begin + scale.width && std::abs(place.height) < 2 * kReferee.bend) {
+        all.push_back({scale.terms(place), place.height, place.away, 0});
+        heights.push_back(place.height);
+      }
+    if (heights.empty()) continue;
+    const double level = median(heights);
+    for (std::size_t i = before; i < all.size(); ++i) all[i].residual = all[i].height - level;
+  }
   const std::size_t step = 1 + all.size() / kCloud.sample;
+  if (step == 1) return all;
   std::vector<ShapePlace> some;
   some.reserve(all.size() / step + 1);
-  for (std::size_t i = 0; i < all.size(); i += step)
-    some.push_back({scale.terms(*all[i]), all[i]->height, all[i]->away, all[i]->height});
+  for (std::size_t i = 0; i < all.size(); i += step) some.push_back(all[i]);
   return some;
 }
 
@@ -78,7 +90,7 @@ PlateShape shape_within(const PlateView& view, double length, double from, doubl
   shape.middle = scale.middle, shape.half = scale.half;
   std::vector<ShapePlace> places = places_within(view, length, scale);
   Terms solution = Terms::Zero();
-  double cut = kReferee.bend;
+  double cut = kReferee.least_tolerance;
   Square inverse;
   int count = 0;
   for (int pass = 0; pass < 4; ++pass) {
@@ -87,16 +99,21 @@ PlateShape shape_within(const PlateView& view, double length, double from, doubl
     if (count < kFewest) return shape;
     inverse = sums.matrix.inverse();
     solution = inverse * sums.right;
-    double squares = 0, kept = 0, farthest = 0;
+    double squares = 0, farthest = 0;
+    std::vector<double> off;
     for (ShapePlace& place : places) {
       place.residual = place.height - solution.dot(place.terms);
       if (std::abs(place.residual) > cut) continue;
-      squares += place.residual * place.residual, ++kept;
+      squares += place.residual * place.residual;
+      off.push_back(std::abs(place.residual));
       farthest = std::max(farthest, place.away);
     }
+    const double kept = static_cast<double>(off.size());
     shape.noise = std::sqrt(squares / std::max(1.0, kept - kTerms));
     shape.width = farthest - scale.begin;
-    cut = std::clamp(kFit.outlier * shape.noise, kReferee.least_tolerance, kReferee.bend);
+    // By half of the places: the cut along a plate's far edge is no noise of its face.
+    cut = std::clamp(kFit.outlier * kFit.median_to_deviation * median(off),
+                     kReferee.least_tolerance, kReferee.bend);
   }
   shape.known = true;
   shape.tolerance =
@@ -105,13 +122,17 @@ PlateShape shape_within(const PlateView& view, double length, double from, doubl
   const double stripes = static_cast<double>(view.stripes.size());
   const double alike = std::max(1.0, count / std::max(1.0, stripes));
   const double variance = shape.noise * shape.noise * alike;
-  shape.tilt = solution(3) / scale.width;
-  shape.tilt_deviation = std::sqrt(variance * inverse(3, 3)) / scale.width;
+  // In the middle of what was seen of the strip: farther out it may be round.
+  const double middle = shape.width / 2, w = middle / scale.width - 0.5;
+  shape.tilt = (solution(3) + 2 * solution(4) * w) / scale.width;
+  shape.tilt_deviation =
+      std::sqrt(variance * (inverse(3, 3) + 4 * w * (inverse(3, 4) + w * inverse(4, 4)))) /
+      scale.width;
   shape.curvature = 2 * solution(4) / (scale.width * scale.width);
   shape.curvature_deviation = 2 * std::sqrt(variance * inverse(4, 4)) / (scale.width * scale.width);
-  // Carried to the seam: w there is -begin / width - 1/2.
-  const double at_seam = -scale.begin / scale.width - 0.5;
-  shape.bend = {solution(0) + solution(3) * at_seam, solution(1) / scale.half,
+  // Carried to the seam.
+  const double height = solution(0) + solution(3) * w + solution(4) * w * w;
+  shape.bend = {height - shape.tilt * (scale.begin + middle), solution(1) / scale.half,
                 solution(2) / (scale.half * scale.half)};
   return shape;
 }

@@ -68,6 +68,7 @@ struct PlateView {
   // Away from the seam, as far as the plate was seen between the ends: by three stripes of four,
   // and by one of four; mm.
   double width = 0, widest = 0;
+  bool cut_short = false;  // by what stands before the plate, in nearly all stripes
   std::vector<StripeOnPlate> stripes;
 };
 

@@ -1,6 +1,8 @@
 #include "services/seam_finding/referee/contradictions.hpp"
 
+#include <algorithm>
 #include <catch2/catch.hpp>
+#include <cmath>
 #include <functional>
 
 #include "common/geometry.hpp"
@@ -167,4 +169,28 @@ TEST_CASE("what stands before an outside corner's plate does not make it narrow"
     return away < 0 ? kDeep : away > 9 && away < 17 ? 12 : 0;
   };
   CHECK(judged("outside_corner", view_of(flat), view_of(barred)).reason.code == Code::kNone);
+}
+
+TEST_CASE("the far side of a plate, cut or round, does not turn it") {
+  // A sheet's cut, 1 mm lower; a flange that ends in a radius of 10 mm.
+  const Height cut = [](double away) {
+    return away < 0 || away > 28 ? kDeep : away > 25 ? -0.3 * (away - 25) : 0;
+  };
+  const Height flange = [](double away) {
+    const double beyond = std::max(0.0, away - 21);
+    return away < 0 ? kDeep : beyond > 9 ? kDeep : std::sqrt(100 - beyond * beyond) - 10;
+  };
+  for (const Height& far : {cut, flange})
+    CHECK(judged("tee", view_of(flat), view_of(far)).reason.code == Code::kNone);
+  const Height turned = [&](double away) { return flange(away) + 0.02 * away; };
+  CHECK(judged("tee", view_of(flat), view_of(turned)).reason.code == Code::kPlateTurned);
+}
+
+TEST_CASE("what stands on a plate and is lower than any plate is none, unless something hides it") {
+  const Height low = [](double away) { return away < 0 || away > 12.5 ? kDeep : 0; };
+  const Height barred = [](double away) { return away < 0 ? kDeep : away > 12.5 ? 12 : 0; };
+  const Reason reason = judged("tee", view_of(flat), view_of(low)).reason;
+  CHECK(reason.code == Code::kPlateTooNarrow);
+  CHECK(reason.number == Approx(12.5).margin(1));
+  CHECK(judged("tee", view_of(flat), view_of(barred)).reason.code == Code::kNone);
 }

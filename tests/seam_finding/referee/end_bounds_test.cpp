@@ -50,6 +50,19 @@ TEST_CASE("ends that stripes cross are known better than their pitch, outward fr
   }
 }
 
+TEST_CASE("a plate that begins behind a radius is bounded at the seam") {
+  for (const double slope : {-0.36, 0.36}) {
+    drawn::Plate plate;
+    plate.from_slope = slope;
+    PlateView view = drawn::view_of(plate, {});
+    view.begin = 8;
+    const EndBounds bounds = bounds_of(view, SeamSide::kBegin, 0, kPitch);
+    INFO("slope " << slope);
+    CHECK(bounds.least <= 0);
+    CHECK(bounds.most >= 0);
+  }
+}
+
 TEST_CASE("a plate goes on behind what lies across it") {
   drawn::Scan scan;
   scan.cover = [](double crossing) {

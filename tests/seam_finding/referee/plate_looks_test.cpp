@@ -79,25 +79,60 @@ TEST_CASE("the flank of what stands on a plate is not the plate, though it passe
       if (place.away > 10) CHECK(place.look != Look::kOn);
 }
 
+namespace {
+
+SeamResult claim_of(const synthetic::Scene& scene) {
+  SeamResult seam;
+  seam.verdict = SeamResult::Verdict::kFound;
+  seam.start = scene.start, seam.end = scene.end;
+  seam.direction = (scene.end - scene.start).normalized();
+  for (int j = 0; j < 2; ++j) {
+    const Eigen::Vector3d &own = scene.normals[j], &other = scene.normals[1 - j];
+    seam.faces[j].plane = {own, -own.dot(scene.start)};
+    seam.faces[j].away = (other - other.dot(own) * own).normalized();
+  }
+  return seam;
+}
+
+// Without what lies on the plate up to so far from the seam; mm.
+ScanCloud without_foot(const ScanCloud& cloud, const SeamResult& seam, int plate, double reach) {
+  const SeamPlate& face = seam.faces[plate];
+  ScanCloud left;
+  for (const ScanStripe& stripe : cloud.stripes) {
+    for (int i = stripe.first; i < stripe.first + stripe.count; ++i) {
+      const double away = face.away.dot(cloud.points[i] - seam.start);
+      const double off = std::abs(face.plane.signed_distance(cloud.points[i]));
+      if (off < 0.5 && away > 0.5 && away < reach) continue;
+      left.points.push_back(cloud.points[i]), left.origins.push_back(cloud.origins[i]);
+    }
+    end_stripe(left, stripe.seen, stripe.camera_centre, stripe.tool_position, stripe.tool_turn);
+  }
+  return left;
+}
+
+}  // namespace
+
 TEST_CASE("a plate begins behind its gap") {
-  synthetic::ScanChoice choice;
   for (const double gap : {0.0, 2.5}) {
     const synthetic::Scene scene = synthetic::make_scene({.root_gap = gap}, 351);
-    const ScanCloud cloud = synthetic::make_scan(scene, choice, 351).cloud;
-    SeamResult seam;
-    seam.verdict = SeamResult::Verdict::kFound;
-    seam.start = scene.start, seam.end = scene.end;
-    seam.direction = (scene.end - scene.start).normalized();
-    for (int j = 0; j < 2; ++j) {
-      const Eigen::Vector3d &own = scene.normals[j], &other = scene.normals[1 - j];
-      seam.faces[j].plane = {own, -own.dot(scene.start)};
-      seam.faces[j].away = (other - other.dot(own) * own).normalized();
-    }
-    const double begin = examine(cloud, seam).views[1].begin;
+    const ScanCloud cloud = synthetic::make_scan(scene, {}, 351).cloud;
+    const double begin = examine(cloud, claim_of(scene)).views[1].begin;
     INFO("gap of " << gap);
     CHECK(begin >= gap);
     CHECK(begin < gap + 3.5);  // the places' step on an upright
     CHECK((begin == 0) == (gap == 0));
+  }
+}
+
+TEST_CASE("the other plate beside the seam is no begin of one that shows farther off") {
+  const synthetic::Scene scene = synthetic::make_scene({}, 351);
+  const SeamResult seam = claim_of(scene);
+  const ScanCloud cloud = synthetic::make_scan(scene, {.downsample = 3}, 351).cloud;
+  for (const double radius : {0.0, 6.0, 12.0}) {
+    const double begin = examine(without_foot(cloud, seam, 1, radius), seam).views[1].begin;
+    INFO("radius of " << radius);
+    CHECK(begin >= radius);
+    CHECK(begin < radius + 2);
   }
 }
 
