@@ -6,6 +6,7 @@
 
 #include "services/seam_finding/coverage/coverage.hpp"
 #include "services/seam_finding/coverage/parallel_stations.hpp"
+#include "services/seam_finding/fit/order_statistics.hpp"
 #include "services/seam_finding/fit/plane_fit.hpp"
 #include "services/seam_finding/joints/constants.hpp"
 #include "services/seam_finding/joints/parallel_joint_type.hpp"
@@ -60,8 +61,19 @@ JointPlate plate_of(const ScanCloud& cloud, const TransitionLine& candidate, con
   return result;
 }
 
-void judge(const ScanCloud& cloud, const TransitionLine& candidate, const Scales& scales,
-           const SeamFindingSettings& settings, Joint& joint) {
+// Whether the transitions lie on the line itself. Those that noise makes are spread over the band
+// about it in which they are sought: half of them farther off than half of its half width. Where
+// one straight run ends and the next begins no noise tells.
+bool on_the_line(const TransitionLine& candidate, const std::vector<LinePlace>& places,
+                 const LineFit& line) {
+  std::vector<double> off;
+  for (const LinePlace& place : places)
+    off.push_back(std::abs(place.across - line.across_at(place.along)));
+  return candidate.by_runs || median(off) < kJoints.on_line / 4;
+}
+
+void judge(const ScanCloud& cloud, const TransitionLine& candidate, bool straight,
+           const Scales& scales, const SeamFindingSettings& settings, Joint& joint) {
   joint.coverage = find_coverage(stations_of_both(stations_by_edge(cloud, joint, scales)), scales);
   const std::array<Line, 2>& edges = joint.parallel->edges;
   const double reach = std::min(reach_of(cloud, joint.plates[0], edges[0]),
@@ -76,7 +88,7 @@ void judge(const ScanCloud& cloud, const TransitionLine& candidate, const Scales
     joint.flaw = {Code::kNotParallel};
   else if (share < kJoints.through)
     joint.flaw = {Code::kFewStripesShow, share};
-  else if (joint.parallel->seam.variance > kJoints.unsteady * kJoints.unsteady)
+  else if (!straight || joint.parallel->seam.variance > kJoints.unsteady * kJoints.unsteady)
     joint.flaw = {Code::kEdgesNotStraight};
   else if (reach < kJoints.least_reach)
     joint.flaw = {Code::kPlateNarrow};
@@ -167,7 +179,7 @@ std::optional<Joint> joint_at(const ScanCloud& cloud, const std::vector<Face>& f
         (j == 0 ? -1 : 1) * candidate.frame.normal.cross(joint.line.direction).normalized();
   leave_out_what_runs_across(cloud, scales, joint);
   if (joint.plates[0].points.empty() || joint.plates[1].points.empty()) return std::nullopt;
-  judge(cloud, candidate, scales, settings, joint);
+  judge(cloud, candidate, on_the_line(candidate, places, *rough), scales, settings, joint);
   if (!joint.flaw) measure_gaps(cloud, candidate, joint);
   return joint;
 }

@@ -79,6 +79,7 @@ std::optional<PlateFrame> frame_of(const ScanCloud& cloud, const Face& face,
 std::optional<Joint> joint_through(const ScanCloud& cloud, const std::vector<Face>& faces,
                                    const std::array<int, 2>& sides, const PlateFrame& frame,
                                    const std::vector<Section>& sections,
+                                   const std::vector<int>& face_of,
                                    std::vector<Transition> transitions, bool by_runs,
                                    const Scales& scales, const SeamFindingSettings& settings) {
   std::optional<Joint> first;
@@ -89,7 +90,7 @@ std::optional<Joint> joint_through(const ScanCloud& cloud, const std::vector<Fac
     candidate.by_runs = by_runs;
     candidate.transitions = on_one_line(cloud, frame, transitions);
     if (std::ssize(candidate.transitions) < settings.stripes_min) return first;
-    candidate.share = share_of_sections(cloud, sections, candidate.transitions);
+    candidate.share = share_of_sections(cloud, sections, face_of, candidate);
     auto joint = joint_at(cloud, faces, candidate, scales, settings);
     const bool too_wide = joint && joint->flaw.code == Reason::Code::kGapWidth;
     if (!first || (joint && !joint->flaw)) first = std::move(joint);
@@ -132,11 +133,11 @@ void add_joints(const ScanCloud& cloud, const std::vector<Face>& faces, bool pai
           if (transition.rising == rising || a == b) transitions.push_back(transition);
         const std::array<int, 2> sides =
             rising ? std::array<int, 2>{a, b} : std::array<int, 2>{b, a};
-        auto joint = joint_through(cloud, faces, sides, *frame, sections, std::move(transitions),
-                                   false, scales, settings);
+        auto joint = joint_through(cloud, faces, sides, *frame, sections, face_of,
+                                   std::move(transitions), false, scales, settings);
         if (a == b && cloud.organised()) {
           auto by_runs = joint_through(
-              cloud, faces, sides, *frame, sections,
+              cloud, faces, sides, *frame, sections, face_of,
               transitions_within(cloud, sections, *frame, face_of, a, b, near_plate(scales)), true,
               scales, settings);
           if (by_runs && (!joint || clearly_better(*by_runs, *joint))) joint = std::move(by_runs);
