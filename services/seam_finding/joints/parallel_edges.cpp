@@ -171,17 +171,21 @@ bool sees_below(const ScanCloud& cloud, const Transition& transition,
   });
 }
 
+bool is_covered(const ScanCloud& cloud, const Transition& transition,
+                const std::array<Plane, 2>& planes, double near_mm) {
+  return std::any_of(transition.between.begin(), transition.between.end(), [&](int i) {
+    return std::min(planes[0].signed_distance(cloud.points[i]),
+                    planes[1].signed_distance(cloud.points[i])) > 2 * near_mm;
+  });
+}
+
 std::vector<Transition> showing_edges(const ScanCloud& cloud,
                                       const std::vector<Transition>& transitions,
                                       const std::array<Plane, 2>& planes, double near_mm) {
   std::vector<Transition> bare;
   std::copy_if(transitions.begin(), transitions.end(), std::back_inserter(bare),
                [&](const Transition& transition) {
-                 return std::none_of(
-                     transition.between.begin(), transition.between.end(), [&](int i) {
-                       return std::min(planes[0].signed_distance(cloud.points[i]),
-                                       planes[1].signed_distance(cloud.points[i])) > 2 * near_mm;
-                     });
+                 return !is_covered(cloud, transition, planes, near_mm);
                });
   return bare;
 }

@@ -62,14 +62,12 @@ JointPlate plate_of(const ScanCloud& cloud, const TransitionLine& candidate, con
 }
 
 // Whether the transitions lie on the line itself. Those that noise makes are spread over the band
-// about it in which they are sought: half of them farther off than half of its half width. Where
-// one straight run ends and the next begins no noise tells.
-bool on_the_line(const TransitionLine& candidate, const std::vector<LinePlace>& places,
-                 const LineFit& line) {
+// about it in which they are sought: half of them farther off than half of its half width.
+bool on_the_line(const std::vector<LinePlace>& places, const LineFit& line) {
   std::vector<double> off;
   for (const LinePlace& place : places)
     off.push_back(std::abs(place.across - line.across_at(place.along)));
-  return candidate.by_runs || median(off) < kJoints.on_line / 4;
+  return median(off) < kJoints.on_line / 4;
 }
 
 void judge(const ScanCloud& cloud, const TransitionLine& candidate, bool straight,
@@ -158,12 +156,13 @@ void measure_gaps(const ScanCloud& cloud, const TransitionLine& candidate, Joint
 std::optional<Joint> joint_at(const ScanCloud& cloud, const std::vector<Face>& faces,
                               const TransitionLine& candidate, const Scales& scales,
                               const SeamFindingSettings& settings) {
-  if (static_cast<int>(candidate.transitions.size()) < settings.stripes_min) return std::nullopt;
   std::vector<LinePlace> places;
   for (const Transition& transition : candidate.transitions) {
+    if (transition.covered) continue;
     const Eigen::Vector3d p = place_of(cloud, candidate.frame, transition);
     places.push_back({p.x(), p.y(), 0, 1});
   }
+  if (static_cast<int>(places.size()) < settings.stripes_min) return std::nullopt;
   const auto rough = fit_line(places, 1);
   if (!rough) return std::nullopt;
   Joint joint;
@@ -179,7 +178,7 @@ std::optional<Joint> joint_at(const ScanCloud& cloud, const std::vector<Face>& f
         (j == 0 ? -1 : 1) * candidate.frame.normal.cross(joint.line.direction).normalized();
   leave_out_what_runs_across(cloud, scales, joint);
   if (joint.plates[0].points.empty() || joint.plates[1].points.empty()) return std::nullopt;
-  judge(cloud, candidate, on_the_line(candidate, places, *rough), scales, settings, joint);
+  judge(cloud, candidate, on_the_line(places, *rough), scales, settings, joint);
   if (!joint.flaw) measure_gaps(cloud, candidate, joint);
   return joint;
 }

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 #include "services/seam_finding/fit/order_statistics.hpp"
 #include "services/seam_finding/joints/constants.hpp"
@@ -76,9 +77,24 @@ bool set_lap(const ScanCloud& cloud, const TransitionLine& candidate,
   return true;
 }
 
+// Between the edges at the two ends of what shows them, the smaller first; mm.
+std::array<double, 2> widths_of(const PlateFrame& frame, const ScanCloud& cloud,
+                                const std::vector<Transition>& showing, const LineFit& first,
+                                const LineFit& second) {
+  std::array<double, 2> widths{std::numeric_limits<double>::infinity(),
+                               -std::numeric_limits<double>::infinity()};
+  for (const Transition& transition : showing) {
+    const double along = place_of(cloud, frame, transition).x();
+    const double width = second.across_at(along) - first.across_at(along);
+    widths = {std::min(widths[0], width), std::max(widths[1], width)};
+  }
+  return widths;
+}
+
 // They make a butt joint or, where their edges slant, a groove: the seam runs in the middle.
 void set_butt_or_groove(const TransitionLine& candidate, const ParallelEdges& edges,
-                        const SeamFindingSettings& settings, double width, Joint& joint) {
+                        const SeamFindingSettings& settings, const std::array<double, 2>& widths,
+                        Joint& joint) {
   const PlateFrame& frame = candidate.frame;
   const std::array<Plane, 2> planes = {joint.plates[0].plane, joint.plates[1].plane};
   const LineFit &first = *edges.plates[0], &second = *edges.plates[1];
@@ -108,8 +124,10 @@ void set_butt_or_groove(const TransitionLine& candidate, const ParallelEdges& ed
     joint.flaw = {groove ? Code::kGrooveNotWanted : Code::kButtNotWanted};
   else if (groove && seam.half_angle > half_angle_max)
     joint.flaw = {Code::kGrooveAngle, 2 * seam.half_angle};
-  else if (width > (groove ? widest_groove : settings.butt_gap_max_mm) || width < -kJoints.overlap)
-    joint.flaw = {Code::kGapWidth, width};
+  else if (widths[1] > (groove ? widest_groove : settings.butt_gap_max_mm))
+    joint.flaw = {Code::kGapWidth, widths[1]};
+  else if (widths[0] < -kJoints.overlap)
+    joint.flaw = {Code::kGapWidth, widths[0]};
 }
 
 // Between the plates' edges something is seen that lies below both: there the lower one ends, too.
@@ -166,7 +184,8 @@ bool set_type(const ScanCloud& cloud, const TransitionLine& candidate, const Sca
   joint.parallel.emplace().seam = middle;
   if (is_lap(cloud, candidate, planes, std::abs(step), near_plate(scales), settings))
     return set_lap(cloud, candidate, showing, edges, scales, settings, step, width, joint);
-  set_butt_or_groove(candidate, edges, settings, width, joint);
+  set_butt_or_groove(candidate, edges, settings, widths_of(frame, cloud, showing, first, second),
+                     joint);
   return true;
 }
 

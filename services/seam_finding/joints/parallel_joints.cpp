@@ -5,6 +5,7 @@
 
 #include "services/seam_finding/fit/order_statistics.hpp"
 #include "services/seam_finding/joints/constants.hpp"
+#include "services/seam_finding/joints/parallel_edges.hpp"
 #include "services/seam_finding/joints/parallel_joint.hpp"
 #include "services/seam_finding/joints/parallel_joint_type.hpp"
 #include "services/seam_finding/joints/straight_runs.hpp"
@@ -82,6 +83,9 @@ std::optional<Joint> joint_through(const ScanCloud& cloud, const std::vector<Fac
                                    const std::vector<int>& face_of,
                                    std::vector<Transition> transitions, bool by_runs,
                                    const Scales& scales, const SeamFindingSettings& settings) {
+  for (Transition& transition : transitions)
+    transition.covered = is_covered(
+        cloud, transition, {faces[sides[0]].plane, faces[sides[1]].plane}, scales.tolerance);
   std::optional<Joint> first;
   for (;;) {
     TransitionLine candidate;

@@ -122,6 +122,7 @@ std::vector<Transition> on_one_line(const ScanCloud& cloud, const PlateFrame& fr
   std::vector<Transition> best;
   for (std::size_t a = 0; a < places.size(); a += stride)
     for (std::size_t b = a + stride; b < places.size(); b += stride) {
+      if (transitions[a].covered || transitions[b].covered) continue;
       const double base = places[b].x() - places[a].x();
       const double slope = (places[b].y() - places[a].y()) / base;
       if (std::abs(base) < kJoints.least_base || std::abs(slope) > kJoints.steepest_line) continue;
@@ -133,7 +134,7 @@ std::vector<Transition> on_one_line(const ScanCloud& cloud, const PlateFrame& fr
         if (std::abs(off) > kJoints.on_line || !sections.insert(transitions[i].section).second)
           continue;
         chosen.push_back(transitions[i]);
-        support += 1 - std::abs(off) / kJoints.on_line;
+        if (!transitions[i].covered) support += 1 - std::abs(off) / kJoints.on_line;
       }
       if (support > most) most = support, best = std::move(chosen);
     }

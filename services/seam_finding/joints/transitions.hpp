@@ -32,6 +32,7 @@ struct Transition {
   int last = 0, first = 0;   // indices of the points: the one with the smaller `across`, the other
   std::vector<int> between;  // on neither plate, in order
   bool rising = true;        // from the first face to the second, or back
+  bool covered = false;      // something stands before both plates there: their edges do not show
 };
 
 // Between a point of face a and one of face b. Where both are one face: between two of its points
@@ -59,7 +60,7 @@ Eigen::Vector3d place_of(const ScanCloud& cloud, const PlateFrame& frame,
                          const Transition& transition);
 
 // The transitions that lie together on the line which most sections support, the nearer to it the
-// more; one a section.
+// more, and where edges show alone; one a section.
 std::vector<Transition> on_one_line(const ScanCloud& cloud, const PlateFrame& frame,
                                     const std::vector<Transition>& transitions);
 
