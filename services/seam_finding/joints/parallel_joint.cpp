@@ -61,13 +61,16 @@ JointPlate plate_of(const ScanCloud& cloud, const TransitionLine& candidate, con
   return result;
 }
 
-// Whether the transitions lie on the line itself. Those that noise makes are spread over the band
-// about it in which they are sought: half of them farther off than half of its half width.
-bool on_the_line(const std::vector<LinePlace>& places, const LineFit& line) {
+// Whether the transitions lie on the line itself. Those that noise makes within one face are spread
+// over the band about it in which they are sought: half of them farther off than half of its half
+// width.
+bool on_the_line(const TransitionLine& candidate, const std::vector<LinePlace>& places,
+                 const LineFit& line) {
+  if (candidate.faces[0] != candidate.faces[1]) return true;
   std::vector<double> off;
   for (const LinePlace& place : places)
     off.push_back(std::abs(place.across - line.across_at(place.along)));
-  return median(off) < kJoints.on_line / 4;
+  return median(off) < kJoints.on_line / 4;  // by the best of many lines: half of that half
 }
 
 void judge(const ScanCloud& cloud, const TransitionLine& candidate, bool straight,
@@ -178,7 +181,7 @@ std::optional<Joint> joint_at(const ScanCloud& cloud, const std::vector<Face>& f
         (j == 0 ? -1 : 1) * candidate.frame.normal.cross(joint.line.direction).normalized();
   leave_out_what_runs_across(cloud, scales, joint);
   if (joint.plates[0].points.empty() || joint.plates[1].points.empty()) return std::nullopt;
-  judge(cloud, candidate, on_the_line(places, *rough), scales, settings, joint);
+  judge(cloud, candidate, on_the_line(candidate, places, *rough), scales, settings, joint);
   if (!joint.flaw) measure_gaps(cloud, candidate, joint);
   return joint;
 }

@@ -128,13 +128,13 @@ std::vector<Transition> on_one_line(const ScanCloud& cloud, const PlateFrame& fr
       if (std::abs(base) < kJoints.least_base || std::abs(slope) > kJoints.steepest_line) continue;
       std::set<int> sections;
       std::vector<Transition> chosen;
-      double support = 0;  // what lies on the line supports it, strays spread over the band do not
+      double support = 0;  // what lies on the line counts twice what lies at its band's border
       for (std::size_t i = 0; i < places.size(); ++i) {
         const double off = places[i].y() - places[a].y() - slope * (places[i].x() - places[a].x());
         if (std::abs(off) > kJoints.on_line || !sections.insert(transitions[i].section).second)
           continue;
         chosen.push_back(transitions[i]);
-        if (!transitions[i].covered) support += 1 - std::abs(off) / kJoints.on_line;
+        if (!transitions[i].covered) support += 2 - std::abs(off) / kJoints.on_line;
       }
       if (support > most) most = support, best = std::move(chosen);
     }
