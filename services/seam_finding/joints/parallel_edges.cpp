@@ -225,8 +225,12 @@ ParallelEdges edges_of(const ScanCloud& cloud, const std::vector<Transition>& tr
     borders.depth = std::max(borders.depth, -deepest);
     if (cut.size() >= kJoints.cut_points && -deepest > kJoints.least_depth) {
       // Falling away from plate 0 is toward larger across. What does not slant open is cut square.
+      // A slant begins where the plate ends; what smoothing makes of a square cut across a gap does
+      // not.
+      const auto top = fit_line(ends[plate], kJoints.square_cut);
       if (const auto fit = fit_line(cut, kJoints.free_cut);
-          fit && std::atan((plate == 0 ? -1 : 1) * fit->lean) > kJoints.slanting) {
+          fit && std::atan((plate == 0 ? -1 : 1) * fit->lean) > kJoints.slanting &&
+          (!top || std::abs(fit->at_middle - top->across_at(fit->middle)) < kJoints.on_line / 2)) {
         borders.plates[plate] = fit;
         borders.slants[plate] = std::atan((plate == 0 ? -1 : 1) * fit->lean);
         continue;

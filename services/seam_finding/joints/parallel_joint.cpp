@@ -135,6 +135,12 @@ void measure_gaps(const ScanCloud& cloud, const TransitionLine& candidate, Joint
   if (joint.type == JointType::kLap) return;
   const Eigen::Vector3d across = (joint.line.direction.cross(candidate.frame.normal)).normalized();
   const double width = std::abs(across.dot(flat.edges[1].point - flat.edges[0].point));
+  const auto width_at = [&](double along) {
+    const Eigen::Vector3d place = candidate.frame.origin + along * candidate.frame.along;
+    const std::array<Line, 2>& edges = flat.edges;
+    return std::abs(
+        across.dot(edges[1].at(edges[1].along(place)) - edges[0].at(edges[0].along(place))));
+  };
   double steps = 0;  // across, between a thinned-out stripe's points at the gap
   int downsampled = 0;
   for (const Transition& transition : candidate.transitions) {
@@ -146,6 +152,9 @@ void measure_gaps(const ScanCloud& cloud, const TransitionLine& candidate, Joint
       ++downsampled;
       seen = width;  // such a stripe tells no more than the lines through all of them
     }
+    // What is dark there beside the gap is something's shadow.
+    const double along = candidate.frame.of((a + b) / 2).x();
+    if (transition.covered || seen > width_at(along) + kJoints.on_line) continue;
     flat.gaps.push_back({joint.line.along((a + b) / 2), seen});
   }
   if (flat.narrow) return;

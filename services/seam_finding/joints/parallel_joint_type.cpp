@@ -131,13 +131,22 @@ void set_butt_or_groove(const TransitionLine& candidate, const ParallelEdges& ed
 }
 
 // Between the plates' edges something is seen that lies below both: there the lower one ends, too.
+// Some stripes show it beyond doubt, or half of all do: a lap's shadow ends on the lower plate.
 bool lower_plate_ends(const ScanCloud& cloud, const TransitionLine& candidate,
                       const std::array<Plane, 2>& planes, double near_mm) {
   const auto& all = candidate.transitions;
-  return static_cast<double>(
-             std::count_if(all.begin(), all.end(), [&](const Transition& transition) {
-               return sees_below(cloud, transition, planes, near_mm);
-             })) >= kJoints.seen_below * static_cast<double>(all.size());
+  const auto seen = std::count_if(all.begin(), all.end(), [&](const Transition& transition) {
+    return sees_below(cloud, transition, planes, near_mm);
+  });
+  std::vector<double> lowest;
+  for (const Transition& transition : all) {
+    lowest.push_back(0);
+    for (const int i : transition.between)
+      lowest.back() = std::min(lowest.back(), std::max(planes[0].signed_distance(cloud.points[i]),
+                                                       planes[1].signed_distance(cloud.points[i])));
+  }
+  return static_cast<double>(seen) >= kJoints.seen_below * static_cast<double>(all.size()) ||
+         quantile(lowest, 0.5) < -2 * near_mm;
 }
 
 // A step between the tops is a lap's or a mismatch: a mismatch where the lower plate is seen to
@@ -151,7 +160,7 @@ bool is_lap(const ScanCloud& cloud, const TransitionLine& candidate,
   const bool flush = is_wanted(JointType::kButt, settings) || is_wanted(JointType::kV, settings);
   const bool lap = is_wanted(JointType::kLap, settings);
   if (lap && !flush) return step >= kJoints.least_step;
-  if (flush && !lap) return step >= kJoints.most_mismatch;
+  if (flush && !lap) return step >= settings.mismatch_max_mm;
   return step >= settings.lap_thickness_min_mm;
 }
 
