@@ -50,6 +50,10 @@ struct SeamFindingSettings {
                                       // too: a smaller step is taken for none
   double lap_thickness_max_mm = 12;
   double butt_gap_max_mm = 4;
+  // Of a butt joint's or a groove's tops, where they alone are wanted. From above a lap of sheet as
+  // thin looks no different where both touch: set it below the thinnest sheet that may lie there by
+  // mistake. ISO 5817, 507, level B: a tenth of the thickness; of plates of 10 mm.
+  double mismatch_max_mm = 1;
   double v_angle_deg = 60;  // between the two slants
   double v_angle_tolerance_deg = 35;
   double v_width_max_mm = 44;  // of the groove at its top: plates of 20 mm that open by 95 deg
@@ -116,6 +120,7 @@ struct SeamFindingSettings {
     visitor("lap_thickness_min_mm", lap_thickness_min_mm, between(0.2, 100));
     visitor("lap_thickness_max_mm", lap_thickness_max_mm, between(0.2, 100));
     visitor("butt_gap_max_mm", butt_gap_max_mm, between(0.2, 20));
+    visitor("mismatch_max_mm", mismatch_max_mm, between(0.2, 20));
     visitor("v_angle_deg", v_angle_deg, between(20, 150));
     visitor("v_angle_tolerance_deg", v_angle_tolerance_deg, between(1, 60));
     visitor("v_width_max_mm", v_width_max_mm, between(1, 100));

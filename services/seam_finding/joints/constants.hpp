@@ -116,12 +116,8 @@ struct JointConstants {
   // bends make none. Sheet metal is thinner only in bodies and cabinets - bench, whose sheets are
   // of 0.8 mm and more.
   double least_step = 0.6;
-  // mm; and where a butt joint or a groove alone is wanted: the tops' mismatch, at most - ISO 5817,
-  // 507: by level B a tenth of the thickness, of plates of 10 mm. More may be a lap of thin sheet,
-  // which nothing seen from above tells from it.
-  double most_mismatch = 1;
-  // mm; and where the lower plate is seen to end: at most - ISO 5817, 507, level B, of any
-  // thickness.
+  // mm; of the tops' mismatch where the lower plate is seen to end, at most - ISO 5817, 507, level
+  // B, of any thickness.
   double most_offset = 3;
   // mm; of a lap's root gap, at most: what is seen of the step is the upper plate and the gap - ISO
   // 5817, 617, level B.

@@ -171,17 +171,21 @@ bool sees_below(const ScanCloud& cloud, const Transition& transition,
   });
 }
 
+bool is_covered(const ScanCloud& cloud, const Transition& transition,
+                const std::array<Plane, 2>& planes, double near_mm) {
+  return std::any_of(transition.between.begin(), transition.between.end(), [&](int i) {
+    return std::min(planes[0].signed_distance(cloud.points[i]),
+                    planes[1].signed_distance(cloud.points[i])) > 2 * near_mm;
+  });
+}
+
 std::vector<Transition> showing_edges(const ScanCloud& cloud,
                                       const std::vector<Transition>& transitions,
                                       const std::array<Plane, 2>& planes, double near_mm) {
   std::vector<Transition> bare;
   std::copy_if(transitions.begin(), transitions.end(), std::back_inserter(bare),
                [&](const Transition& transition) {
-                 return std::none_of(
-                     transition.between.begin(), transition.between.end(), [&](int i) {
-                       return std::min(planes[0].signed_distance(cloud.points[i]),
-                                       planes[1].signed_distance(cloud.points[i])) > 2 * near_mm;
-                     });
+                 return !is_covered(cloud, transition, planes, near_mm);
                });
   return bare;
 }
@@ -221,8 +225,12 @@ ParallelEdges edges_of(const ScanCloud& cloud, const std::vector<Transition>& tr
     borders.depth = std::max(borders.depth, -deepest);
     if (cut.size() >= kJoints.cut_points && -deepest > kJoints.least_depth) {
       // Falling away from plate 0 is toward larger across. What does not slant open is cut square.
+      // A slant begins where the plate ends; what smoothing makes of a square cut across a gap does
+      // not.
+      const auto top = fit_line(ends[plate], kJoints.square_cut);
       if (const auto fit = fit_line(cut, kJoints.free_cut);
-          fit && std::atan((plate == 0 ? -1 : 1) * fit->lean) > kJoints.slanting) {
+          fit && std::atan((plate == 0 ? -1 : 1) * fit->lean) > kJoints.slanting &&
+          (!top || std::abs(fit->at_middle - top->across_at(fit->middle)) < kJoints.on_line / 2)) {
         borders.plates[plate] = fit;
         borders.slants[plate] = std::atan((plate == 0 ? -1 : 1) * fit->lean);
         continue;

@@ -18,8 +18,11 @@ struct ParallelEdges {
   bool together = false;
 };
 
-// Those of the transitions in which nothing stands before both plates, as a bead or a cable that
-// hides their edges. planes, near_mm: as below.
+// Something stands before both plates, as a bead, a bar or a cable that hides their edges.
+bool is_covered(const ScanCloud& cloud, const Transition& transition,
+                const std::array<Plane, 2>& planes, double near_mm);
+
+// Those of the transitions in which nothing does. planes, near_mm: as below.
 std::vector<Transition> showing_edges(const ScanCloud& cloud,
                                       const std::vector<Transition>& transitions,
                                       const std::array<Plane, 2>& planes, double near_mm);

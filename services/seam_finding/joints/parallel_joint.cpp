@@ -6,6 +6,7 @@
 
 #include "services/seam_finding/coverage/coverage.hpp"
 #include "services/seam_finding/coverage/parallel_stations.hpp"
+#include "services/seam_finding/fit/order_statistics.hpp"
 #include "services/seam_finding/joints/constants.hpp"
 #include "services/seam_finding/joints/parallel_joint_type.hpp"
 #include "services/seam_finding/planes/robust_plane.hpp"
@@ -58,8 +59,20 @@ JointPlate plate_of(const ScanCloud& cloud, const TransitionLine& candidate, con
   return result;
 }
 
-void judge(const ScanCloud& cloud, const TransitionLine& candidate, const Scales& scales,
-           const SeamFindingSettings& settings, Joint& joint) {
+// Whether the transitions lie on the line itself. Those that noise makes within one face are spread
+// over the band about it in which they are sought: half of them farther off than half of its half
+// width.
+bool on_the_line(const TransitionLine& candidate, const std::vector<LinePlace>& places,
+                 const LineFit& line) {
+  if (candidate.faces[0] != candidate.faces[1]) return true;
+  std::vector<double> off;
+  for (const LinePlace& place : places)
+    off.push_back(std::abs(place.across - line.across_at(place.along)));
+  return median(off) < kJoints.on_line / 4;  // by the best of many lines: half of that half
+}
+
+void judge(const ScanCloud& cloud, const TransitionLine& candidate, bool straight,
+           const Scales& scales, const SeamFindingSettings& settings, Joint& joint) {
   joint.coverage = find_coverage(stations_of_both(stations_by_edge(cloud, joint, scales)), scales);
   const std::array<Line, 2>& edges = joint.parallel->edges;
   const double reach = std::min(reach_of(cloud, joint.plates[0], edges[0]),
@@ -74,7 +87,7 @@ void judge(const ScanCloud& cloud, const TransitionLine& candidate, const Scales
     joint.flaw = {Code::kNotParallel};
   else if (share < kJoints.through)
     joint.flaw = {Code::kFewStripesShow, share};
-  else if (joint.parallel->seam.variance > kJoints.unsteady * kJoints.unsteady)
+  else if (!straight || joint.parallel->seam.variance > kJoints.unsteady * kJoints.unsteady)
     joint.flaw = {Code::kEdgesNotStraight};
   else if (reach < kJoints.least_reach)
     joint.flaw = {Code::kPlateNarrow};
@@ -120,6 +133,12 @@ void measure_gaps(const ScanCloud& cloud, const TransitionLine& candidate, Joint
   if (joint.type == JointType::kLap) return;
   const Eigen::Vector3d across = (joint.line.direction.cross(candidate.frame.normal)).normalized();
   const double width = std::abs(across.dot(flat.edges[1].point - flat.edges[0].point));
+  const auto width_at = [&](double along) {
+    const Eigen::Vector3d place = candidate.frame.origin + along * candidate.frame.along;
+    const std::array<Line, 2>& edges = flat.edges;
+    return std::abs(
+        across.dot(edges[1].at(edges[1].along(place)) - edges[0].at(edges[0].along(place))));
+  };
   double steps = 0;  // across, between a thinned-out stripe's points at the gap
   int downsampled = 0;
   for (const Transition& transition : candidate.transitions) {
@@ -131,6 +150,9 @@ void measure_gaps(const ScanCloud& cloud, const TransitionLine& candidate, Joint
       ++downsampled;
       seen = width;  // such a stripe tells no more than the lines through all of them
     }
+    // What is dark there beside the gap is something's shadow.
+    const double along = candidate.frame.of((a + b) / 2).x();
+    if (transition.covered || seen > width_at(along) + kJoints.on_line) continue;
     flat.gaps.push_back({joint.line.along((a + b) / 2), seen});
   }
   if (flat.narrow) return;
@@ -144,12 +166,13 @@ void measure_gaps(const ScanCloud& cloud, const TransitionLine& candidate, Joint
 std::optional<Joint> joint_at(const ScanCloud& cloud, const std::vector<Face>& faces,
                               const TransitionLine& candidate, const Scales& scales,
                               const SeamFindingSettings& settings) {
-  if (static_cast<int>(candidate.transitions.size()) < settings.stripes_min) return std::nullopt;
   std::vector<LinePlace> places;
   for (const Transition& transition : candidate.transitions) {
+    if (transition.covered) continue;
     const Eigen::Vector3d p = place_of(cloud, candidate.frame, transition);
     places.push_back({p.x(), p.y(), 0, 1});
   }
+  if (static_cast<int>(places.size()) < settings.stripes_min) return std::nullopt;
   const auto rough = fit_line(places, 1);
   if (!rough) return std::nullopt;
   Joint joint;
@@ -164,7 +187,7 @@ std::optional<Joint> joint_at(const ScanCloud& cloud, const std::vector<Face>& f
         (j == 0 ? -1 : 1) * candidate.frame.normal.cross(joint.line.direction).normalized();
   leave_out_what_runs_across(cloud, scales, joint);
   if (joint.plates[0].points.empty() || joint.plates[1].points.empty()) return std::nullopt;
-  judge(cloud, candidate, scales, settings, joint);
+  judge(cloud, candidate, on_the_line(candidate, places, *rough), scales, settings, joint);
   if (!joint.flaw) measure_gaps(cloud, candidate, joint);
   return joint;
 }

@@ -5,6 +5,7 @@
 
 #include "services/seam_finding/fit/order_statistics.hpp"
 #include "services/seam_finding/joints/constants.hpp"
+#include "services/seam_finding/joints/parallel_edges.hpp"
 #include "services/seam_finding/joints/parallel_joint.hpp"
 #include "services/seam_finding/joints/parallel_joint_type.hpp"
 #include "services/seam_finding/joints/straight_runs.hpp"
@@ -74,20 +75,37 @@ std::optional<PlateFrame> frame_of(const ScanCloud& cloud, const Face& face,
   return frame;
 }
 
-// The joint that the transitions on one line make.
+// The joint that the transitions on one line make. A line along which far more than a gap is dark,
+// as in a wire's shadow, is none of the plates' edges: then the next one.
 std::optional<Joint> joint_through(const ScanCloud& cloud, const std::vector<Face>& faces,
                                    const std::array<int, 2>& sides, const PlateFrame& frame,
                                    const std::vector<Section>& sections,
-                                   const std::vector<Transition>& transitions, bool by_runs,
+                                   const std::vector<int>& face_of,
+                                   std::vector<Transition> transitions, bool by_runs,
                                    const Scales& scales, const SeamFindingSettings& settings) {
-  TransitionLine candidate;
-  candidate.frame = frame;
-  candidate.faces = sides;
-  candidate.by_runs = by_runs;
-  candidate.transitions = on_one_line(cloud, frame, transitions);
-  if (candidate.transitions.empty()) return std::nullopt;
-  candidate.share = share_of_sections(cloud, sections, candidate.transitions);
-  return joint_at(cloud, faces, candidate, scales, settings);
+  for (Transition& transition : transitions)
+    transition.covered = is_covered(
+        cloud, transition, {faces[sides[0]].plane, faces[sides[1]].plane}, scales.tolerance);
+  std::optional<Joint> first;
+  for (;;) {
+    TransitionLine candidate;
+    candidate.frame = frame;
+    candidate.faces = sides;
+    candidate.by_runs = by_runs;
+    candidate.transitions = on_one_line(cloud, frame, transitions);
+    if (std::ssize(candidate.transitions) < settings.stripes_min) return first;
+    candidate.share = share_of_sections(cloud, sections, face_of, candidate);
+    auto joint = joint_at(cloud, faces, candidate, scales, settings);
+    const bool too_wide = joint && joint->flaw.code == Reason::Code::kGapWidth;
+    if (!first || (joint && !joint->flaw)) first = std::move(joint);
+    if (!too_wide) return first;
+    std::erase_if(transitions, [&](const Transition& transition) {
+      return std::any_of(
+          candidate.transitions.begin(), candidate.transitions.end(), [&](const Transition& taken) {
+            return taken.section == transition.section && taken.last == transition.last;
+          });
+    });
+  }
 }
 
 // Than one that was found in the plainer way.
@@ -119,11 +137,11 @@ void add_joints(const ScanCloud& cloud, const std::vector<Face>& faces, bool pai
           if (transition.rising == rising || a == b) transitions.push_back(transition);
         const std::array<int, 2> sides =
             rising ? std::array<int, 2>{a, b} : std::array<int, 2>{b, a};
-        auto joint = joint_through(cloud, faces, sides, *frame, sections, transitions, false,
-                                   scales, settings);
+        auto joint = joint_through(cloud, faces, sides, *frame, sections, face_of,
+                                   std::move(transitions), false, scales, settings);
         if (a == b && cloud.organised()) {
           auto by_runs = joint_through(
-              cloud, faces, sides, *frame, sections,
+              cloud, faces, sides, *frame, sections, face_of,
               transitions_within(cloud, sections, *frame, face_of, a, b, near_plate(scales)), true,
               scales, settings);
           if (by_runs && (!joint || clearly_better(*by_runs, *joint))) joint = std::move(by_runs);

@@ -5,6 +5,7 @@
 #include <map>
 #include <set>
 
+#include "services/seam_finding/fit/line_fit.hpp"
 #include "services/seam_finding/fit/order_statistics.hpp"
 #include "services/seam_finding/joints/constants.hpp"
 #include "services/seam_finding/model/constants.hpp"
@@ -117,35 +118,52 @@ std::vector<Transition> on_one_line(const ScanCloud& cloud, const PlateFrame& fr
   for (const Transition& transition : transitions)
     places.push_back(place_of(cloud, frame, transition));
   const std::size_t stride = 1 + transitions.size() / kJoints.drawn;
-  std::size_t most = 0;
+  double most = 0;
   std::vector<Transition> best;
   for (std::size_t a = 0; a < places.size(); a += stride)
     for (std::size_t b = a + stride; b < places.size(); b += stride) {
+      if (transitions[a].covered || transitions[b].covered) continue;
       const double base = places[b].x() - places[a].x();
       const double slope = (places[b].y() - places[a].y()) / base;
       if (std::abs(base) < kJoints.least_base || std::abs(slope) > kJoints.steepest_line) continue;
       std::set<int> sections;
       std::vector<Transition> chosen;
+      double support = 0;  // what lies on the line counts twice what lies at its band's border
       for (std::size_t i = 0; i < places.size(); ++i) {
         const double off = places[i].y() - places[a].y() - slope * (places[i].x() - places[a].x());
-        if (std::abs(off) <= kJoints.on_line && sections.insert(transitions[i].section).second)
-          chosen.push_back(transitions[i]);
+        if (std::abs(off) > kJoints.on_line || !sections.insert(transitions[i].section).second)
+          continue;
+        chosen.push_back(transitions[i]);
+        if (!transitions[i].covered) support += 2 - std::abs(off) / kJoints.on_line;
       }
-      if (chosen.size() > most) most = chosen.size(), best = std::move(chosen);
+      if (support > most) most = support, best = std::move(chosen);
     }
   return best;
 }
 
 double share_of_sections(const ScanCloud& cloud, const std::vector<Section>& sections,
-                         const std::vector<Transition>& transitions) {
-  int first = transitions.front().section, last = first, known = 0;
-  for (const Transition& transition : transitions)
+                         const std::vector<int>& face_of, const TransitionLine& candidate) {
+  const PlateFrame& frame = candidate.frame;
+  std::vector<LinePlace> places;
+  int first = candidate.transitions.front().section, last = first, known = 0;
+  for (const Transition& transition : candidate.transitions) {
     first = std::min(first, transition.section), last = std::max(last, transition.section);
-  for (int k = first; k <= last; ++k)
-    known += !cloud.organised() || cloud.stripes[k].seen != ScanStripe::Seen::kMissing
-                 ? !sections[k].empty()
-                 : 0;
-  return static_cast<double>(transitions.size()) / std::max(1, known);
+    const Eigen::Vector3d p = place_of(cloud, frame, transition);
+    places.push_back({p.x(), p.y(), 0, 1});
+  }
+  const auto line = fit_line(places, 1);
+  for (int k = first; line && k <= last; ++k) {
+    std::array<bool, 2> seen{};
+    for (const int i : sections[k]) {
+      const Eigen::Vector3d p = frame.of(cloud.points[i]);
+      const double off = p.y() - line->across_at(p.x());
+      const int side = off > 0;
+      if (std::abs(off) < kJoints.full_reach && face_of[i] == candidate.faces[side])
+        seen[side] = true;
+    }
+    known += seen[0] && seen[1];
+  }
+  return std::min(1.0, static_cast<double>(candidate.transitions.size()) / std::max(1, known));
 }
 
 }  // namespace arcstart::seam_finding

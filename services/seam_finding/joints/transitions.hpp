@@ -32,6 +32,7 @@ struct Transition {
   int last = 0, first = 0;   // indices of the points: the one with the smaller `across`, the other
   std::vector<int> between;  // on neither plate, in order
   bool rising = true;        // from the first face to the second, or back
+  bool covered = false;      // something stands before both plates there: their edges do not show
 };
 
 // Between a point of face a and one of face b. Where both are one face: between two of its points
@@ -58,13 +59,14 @@ struct TransitionLine {
 Eigen::Vector3d place_of(const ScanCloud& cloud, const PlateFrame& frame,
                          const Transition& transition);
 
-// The transitions that lie together on the line which most sections support; one a section.
+// The transitions that lie together on the line which most sections support, the nearer to it the
+// more, and where edges show alone; one a section.
 std::vector<Transition> on_one_line(const ScanCloud& cloud, const PlateFrame& frame,
                                     const std::vector<Transition>& transitions);
 
-// Of the sections between the first and the last of the transitions, at least one: in how many one
-// of them lies.
+// Of the sections between the first and the last of the transitions, at least one, that see both
+// plates beside the line: in how many a transition lies. A bar across the seam hides them.
 double share_of_sections(const ScanCloud& cloud, const std::vector<Section>& sections,
-                         const std::vector<Transition>& transitions);
+                         const std::vector<int>& face_of, const TransitionLine& candidate);
 
 }  // namespace arcstart::seam_finding

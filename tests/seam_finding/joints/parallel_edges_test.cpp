@@ -142,3 +142,42 @@ TEST_CASE("a gap over a backing strip is a butt joint's, no groove") {
   }
   CHECK(butts == seeds);
 }
+
+TEST_CASE("a butt joint is found beside a slot that is wider than a gap") {
+  // The slot is crossed by as many stripes as the gap, and parts the plate.
+  for (int seed = 1; seed <= seeds; ++seed) {
+    const Scene scene = scene_of("butt", seed);
+    const Axes axes(scene);
+    ScanCloud cloud = make_scan(scene, with_bends, static_cast<std::uint64_t>(seed)).cloud;
+    for (Vector3d& point : cloud.points) {
+      const double beside = axes.across.dot(point - scene.start);
+      if (beside > 14 && beside < 24 && axes.out.dot(point - scene.start) > -1)
+        point -= 40 * axes.out;
+    }
+    const SeamResult result = find(scene, cloud, "butt", seed);
+    INFO("seed " << seed << ": " << in_words(result.reason));
+    REQUIRE(result.verdict == SeamResult::Verdict::kFound);
+    CHECK(std::abs(axes.across.dot(result.start - scene.start)) < 0.4);
+    CHECK(std::abs(axes.across.dot(result.end - scene.end)) < 0.4);
+  }
+}
+
+TEST_CASE("a step that touches is a butt joint's as far as the job says, no lap's") {
+  // Nothing seen from above tells it from a lap of sheet as thin.
+  for (const double limit : {1.0, 2.0})
+    for (int seed = 1; seed <= seeds; ++seed) {
+      const Scene scene = stepped_butt(seed, 1, 1.5);
+      SeamFindingSettings settings;
+      settings.joint_type = "butt";
+      settings.mismatch_max_mm = limit;
+      Scene cell = scene;
+      cell.boxes.clear();
+      const SurfaceBackground empty(make_scan(cell, with_bends, 1).cloud,
+                                    settings.background_distance());
+      const auto number = static_cast<std::uint64_t>(seed);
+      const SeamResult result =
+          find_seam(make_scan(scene, with_bends, number).cloud, empty, settings, number);
+      INFO("seed " << seed << ", limit " << limit << " mm: " << in_words(result.reason));
+      CHECK((result.verdict == SeamResult::Verdict::kFound) == (limit > 1.5));
+    }
+}
