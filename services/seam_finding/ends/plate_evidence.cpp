@@ -97,6 +97,25 @@ class Collector {
                near;
   }
 
+  // Whether what a stripe shows may be the other plate's cut, in this one's face: it ends no
+  // farther from the seam than that may reach, just as far as beside it, as no end of a plate does,
+  // and to one side along the seam nothing shows more of the plate.
+  bool shows_only_cut(int stripe) const {
+    const double reach = reach_of(stripe), most = reach + kEnds.side_edge;
+    if (!(reach > 0 && reach < stripes_.cut)) return false;
+    const auto as_far = [&](int other) {
+      return reach_of(other) < most && reach_of(other) > reach - kEnds.side_edge;
+    };
+    const auto shows_more = [&](int from, int to) {
+      for (int k = from; k < to; ++k)
+        if (reach_of(k) > most) return true;
+      return false;
+    };
+    const int stripes = static_cast<int>(stripes_.runs.size());
+    return (as_far(stripe - 1) || as_far(stripe + 1)) &&
+           !(shows_more(0, stripe) && shows_more(stripe + 1, stripes));
+  }
+
   // Away from the seam, where half of the stripes first show the plate: behind a gap or a radius.
   double begin() const {
     std::vector<double> nearest;
@@ -108,6 +127,14 @@ class Collector {
   }
 
  private:
+  // How far from the seam a stripe shows the plate; mm, 0 where it does not.
+  double reach_of(int stripe) const {
+    if (stripe < 0 || stripe >= std::ssize(stripes_.runs) || stripes_.runs[stripe].empty())
+      return 0;
+    const std::vector<int>& run = stripes_.runs[stripe];
+    return std::max(part(cloud_.points[run.front()]).away, part(cloud_.points[run.back()]).away);
+  }
+
   // Of points that stand nearer to each other than is needed, one in so many.
   int every(double way, const ScanStripe& stripe) const {
     if (stripe.count < 2) return 1;
@@ -215,6 +242,7 @@ std::array<std::vector<StripeEvidence>, 2> plate_evidence(const ScanCloud& cloud
     if (!station.known) continue;
     const bool at_seam = station.nearest[plate] <= stations.near[plate];
     Seen seen{at_seam, false, {}, {}, {}};
+    bool only_cut = false;  // which says nothing of this plate
     if (station.stripe < 0) {
       if (at_seam) seen.on.push_back({PlacePart{station.along, 0}, PlacePart{station.along, 0}});
     } else {
@@ -222,6 +250,8 @@ std::array<std::vector<StripeEvidence>, 2> plate_evidence(const ScanCloud& cloud
       seen.on = collector.on(run);
       seen.off = collector.off(cloud.stripes[station.stripe], near);
       seen.shown = at_seam || collector.shows_within(near, run);
+      only_cut = collector.shows_only_cut(station.stripe) && !covers(standing, station.along);
+      if (only_cut) seen.on.clear(), seen.shown = false;
       for (const bool at_back : {false, true})
         if (const auto edge = edge_crossing(cloud, run, stripes, at_back, scales);
             edge && edge->away > near && edge->away < far)
@@ -234,7 +264,7 @@ std::array<std::vector<StripeEvidence>, 2> plate_evidence(const ScanCloud& cloud
       StripeEvidence evidence;
       evidence.covered = seen.covered;
       const double slant = outward * stations.slant[plate];
-      if (!seen.shown)
+      if (!seen.shown && !only_cut)
         evidence.absent = PlacePart{outward * station.along + slant * beside, beside};
       for (const Stretch& on : seen.on) evidence.on.push_back(moved(on, outward, -slack));
       for (const Stretch& off : seen.off) {

@@ -1,5 +1,6 @@
 #include "services/seam_finding/ends/seam_ends.hpp"
 
+#include <algorithm>
 #include <cmath>
 #include <utility>
 #include <vector>
@@ -43,6 +44,8 @@ std::array<PlateSight, 2> sights_of(const ScanCloud& cloud, const Joint& joint,
   std::array<PlateSight, 2> sights;
   for (int j = 0; j < 2; ++j) {
     PlateStripes& own = stripes[j];
+    if (joint.type == JointType::kOutsideCorner)
+      own.cut = std::min(kModel.widest_cut, own.reach - kVisibility.near_seam);
     const Line& line = own.line;
     PlateSight& sight = sights[j];
     if (joint.parallel) {

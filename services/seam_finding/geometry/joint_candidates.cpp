@@ -6,6 +6,7 @@
 
 #include "services/seam_finding/joints/constants.hpp"
 #include "services/seam_finding/joints/crossing_joints.hpp"
+#include "services/seam_finding/joints/edges/gap_floor.hpp"
 #include "services/seam_finding/joints/parallel_joints.hpp"
 
 namespace arcstart::seam_finding {
@@ -47,6 +48,9 @@ std::vector<Joint> find_joints(const ScanView& scan, std::vector<Face> faces, co
     for (Face& face : faces)
       face.points = scan.all_on_plane(std::move(face.points), face.plane, scales.tolerance);
     parallel = find_parallel_joints(scan.points_for(Stage::kMeasure), faces, scales, settings);
+    for (Joint& joint : parallel)
+      if (!joint.flaw && joint.type == JointType::kButt && is_line_in_plate(scan, joint, scales))
+        joint.flaw = {Reason::Code::kLineInPlate};
   }
   std::erase_if(joints, [&](const Joint& crossing) {
     return std::any_of(parallel.begin(), parallel.end(),

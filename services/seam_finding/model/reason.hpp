@@ -27,6 +27,7 @@ struct Reason {
     kGrooveAngle,       // number: included angle; rad
     kGapWidth,          // number: mm
     kNotParallel,
+    kLineInPlate,     // no butt joint: what is seen between the plates is a floor near their tops
     kFewStripesShow,  // number: share of the stripes, 0..1
     kPlateNarrow,
 

@@ -24,6 +24,8 @@ struct PlateStripes {
   // How far the plate reaches away from the seam: half of the stripes that show it reach so far;
   // mm, 0 where none does.
   double reach = 0;
+  // mm away from the seam; so wide the other plate's cut may lie in this one's face.
+  double cut = 0;
 };
 
 // Over the plate as it is bent; mm.

@@ -1,0 +1,16 @@
+// A line in one plate, as a scribed or milled one, that looks like the gap between two.
+#pragma once
+
+#include "services/seam_finding/background/scan_view.hpp"
+#include "services/seam_finding/model/joint.hpp"
+#include "services/seam_finding/model/scales.hpp"
+
+namespace arcstart::seam_finding {
+
+// Of a butt joint: the stripes show a floor between its plates, at one depth, where through a gap
+// they would be seen farther down, and it is nearer to the plates' tops than to the background they
+// lie on. A backing, which is no thicker than the plates, and the table itself lie deeper. False
+// where no background is seen beside the joint.
+bool is_line_in_plate(const ScanView& scan, const Joint& joint, const Scales& scales);
+
+}  // namespace arcstart::seam_finding
