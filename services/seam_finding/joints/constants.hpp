@@ -131,9 +131,9 @@ struct JointConstants {
   double off_border = 0.6;
   // mm; by which the edges of plates that touch seem to overlap, at most - bench.
   double overlap = 0.5;
-  // Of the way that the sight goes down into a gap, what is seen of it, at least: thin sheet, tops
-  // that do not meet and stripes far apart leave that much - bench: wild.
-  double shallow = 0.6;
+  // mm; from the edges that a line in one plate seems to have, its floor reaches - bench: lines up
+  // to 2 mm wide.
+  double floor_beside = 1;
   // Share of the stripes that are seen to go on below the lower plate, where it ends - bench.
   double seen_below = 0.3;
 };

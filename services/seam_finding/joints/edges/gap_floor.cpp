@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 #include <vector>
 
 #include "services/seam_finding/fit/order_statistics.hpp"
@@ -17,35 +18,28 @@ double depth_of(const Joint& joint, const Eigen::Vector3d& point) {
                    joint.plates[1].plane.signed_distance(point));
 }
 
-// What stripes show between the plates, and how far down the sight into such a gap would go, before
-// it falls on the farther plate's cut; mm.
-struct SeenBetween {
-  std::vector<double> depths, farthest;
-};
-SeenBetween seen_between(const ScanCloud& cloud, const Joint& joint, double near_mm) {
+// What stripes show below both tops, between the plates and beside their edges: told by a floor,
+// these lie nearer to each other than the line is wide.
+std::vector<std::pair<double, double>> seen_between(const ScanCloud& cloud, const Joint& joint,
+                                                    double near_mm) {
   const std::array<Line, 2>& edges = joint.parallel->edges;
   const Eigen::Vector3d& across = joint.plates[1].away;
-  const Eigen::Vector3d& normal = joint.plates[0].plane.normal;
-  const double width = across.dot(edges[1].at(edges[1].along(edges[0].point)) - edges[0].point);
-  SeenBetween seen;
-  for (int i = 0; i < cloud.size(); ++i) {
-    const Eigen::Vector3d& p = cloud.points[i];
+  std::vector<std::pair<double, double>> seen;  // across, depth; mm
+  for (const Eigen::Vector3d& p : cloud.points) {
     const double along = joint.line.along(p);
-    if (along < joint.coverage.begin || along > joint.coverage.end ||
-        across.dot(p - edges[0].at(edges[0].along(p))) < 0 ||
-        across.dot(p - edges[1].at(edges[1].along(p))) > 0)
+    if (along < joint.coverage.begin || along > joint.coverage.end) continue;
+    const double from_first = across.dot(p - edges[0].at(edges[0].along(p)));
+    if (from_first < -kJoints.floor_beside ||
+        across.dot(p - edges[1].at(edges[1].along(p))) > kJoints.floor_beside)
       continue;
-    const double depth = depth_of(joint, p);
-    if (depth < near_mm) continue;
-    const Eigen::Vector3d sight = cloud.seen_from(i) - p;
-    seen.depths.push_back(depth);
-    seen.farthest.push_back(width * normal.dot(sight) /
-                            std::max(std::abs(across.dot(sight)), kJoints.least_gap_sight));
+    if (const double depth = depth_of(joint, p); depth >= near_mm)
+      seen.emplace_back(from_first, depth);
   }
   return seen;
 }
 
-// Of the background beside the joint, below the plates; mm, 0 where none is seen.
+// Of the background beside the joint, below the plates; mm, 0 where none is seen. Where it lies
+// nearest to them: plates may be tilted, and a table have slots.
 double background_depth(const ScanCloud& cloud, const Segmentation& segmentation,
                         const Joint& joint) {
   std::vector<double> depths;
@@ -54,21 +48,23 @@ double background_depth(const ScanCloud& cloud, const Segmentation& segmentation
     if (along > joint.coverage.begin && along < joint.coverage.end)
       depths.push_back(depth_of(joint, cloud.points[i]));
   }
-  return median(depths);
+  return quantile(depths, 0.1);
 }
 
 }  // namespace
 
 bool is_line_in_plate(const ScanView& scan, const Joint& joint, const Scales& scales) {
-  const ScanCloud& cloud = scan.points_for(Stage::kMeasure);
-  const double near = near_plate(scales);
-  SeenBetween seen = seen_between(cloud, joint, near);
-  if (std::ssize(seen.depths) < kModel.stripes_in_a_row) return false;
-  const double floor = upper_quantile(seen.depths, 0.75), farthest = median(seen.farthest);
-  const auto on_floor = std::count_if(seen.depths.begin(), seen.depths.end(),
-                                      [&](double depth) { return std::abs(depth - floor) < near; });
-  return floor < kJoints.shallow * farthest && 2 * on_floor > std::ssize(seen.depths) &&
-         2 * floor < background_depth(cloud, scan.segmentation(Stage::kMeasure), joint);
+  const auto seen = seen_between(scan.points_for(Stage::kMeasure), joint, near_plate(scales));
+  std::vector<double> depths, places;
+  for (const auto& [across, depth] : seen) depths.push_back(depth);
+  const double floor = upper_quantile(depths, 0.75);
+  for (const auto& [across, depth] : seen)
+    if (std::abs(depth - floor) < kJoints.least_near) places.push_back(across);
+  if (std::ssize(places) < kModel.stripes_in_a_row || 2 * places.size() < seen.size()) return false;
+  const double width = quantile(places, 0.9) - quantile(places, 0.1);
+  return width > kFit.on_plane * kJoints.cut_deviation &&
+         2 * floor < background_depth(scan.points_for(Stage::kMeasure),
+                                      scan.segmentation(Stage::kMeasure), joint);
 }
 
 }  // namespace arcstart::seam_finding

@@ -7,10 +7,11 @@
 
 namespace arcstart::seam_finding {
 
-// Of a butt joint: the stripes show a floor between its plates, at one depth, where through a gap
-// they would be seen farther down, and it is nearer to the plates' tops than to the background they
-// lie on. A backing, which is no thicker than the plates, and the table itself lie deeper. False
-// where no background is seen beside the joint.
+// Of a butt joint: between its plates the stripes show a floor, at one depth and over a way across,
+// where in a gap they fall on the farther plate's cut, at one place and ever deeper; and it is
+// nearer to the plates' tops than to the background they lie on. A backing, which is no thicker
+// than the plates, and the table itself lie deeper. False where no background is seen beside the
+// joint.
 bool is_line_in_plate(const ScanView& scan, const Joint& joint, const Scales& scales);
 
 }  // namespace arcstart::seam_finding

@@ -104,3 +104,41 @@ TEST_CASE("the edge of a solid block is no outside corner of two plates") {
   INFO(plates.reason);
   CHECK(judge(plates, corner.truth()).right);
 }
+
+// The line's floor is a block between two plates, a little lower than they are.
+TEST_CASE("a line milled in a plate is no gap between two") {
+  WildWork work;
+  work.joint = "butt";
+  work.first.thickness_mm = work.second.thickness_mm = 10;
+  work.gap_begin_mm = work.gap_end_mm = GENERATE(1.0, 1.4, 1.8);
+  WildScene scene = scene_of(work, "butt");
+  const WildCase gap(scene);
+  const seam_t through = gap.answer(true);
+  INFO(through.reason);
+  CHECK(judge(through, gap.truth()).right);
+
+  scene.solids = {block(100, work.gap_begin_mm, 9.5, {950, 0, 0}, 0)};
+  const seam_t line = WildCase(scene).answer(true);
+  INFO(line.reason);
+  CHECK(line.verdict == seam_t::REFUSED);
+  // Where hardly anything of its walls is seen, the referee misses the plates' edges.
+  CHECK((line.refusal == seam_t::LINE_IN_PLATE || line.refusal == seam_t::NO_EDGE_AT_SEAM));
+
+  // A backing 4 mm thick below plates of 6.
+  scene.solids = {block(100, work.gap_begin_mm, 4, {950, 0, 0}, 0)};
+  CHECK(judge(WildCase(scene).answer(true), gap.truth()).right);
+}
+
+// Its cut, 8 mm high, goes on in the other's face where that has ended already.
+TEST_CASE("outside a corner the longer plate's cut does not make the other one longer") {
+  for (const double yaw : {-18.0, 0.0, 18.0}) {
+    WildWork work = corner_of_plates(yaw);
+    work.first.begin.at_mm = -65;
+    const WildCase corner(scene_of(work, "outside_corner"));
+    const seam_t seam = corner.answer(true);
+    INFO("turned by " << yaw << " deg: " << seam.reason);
+    const WildJudgement judgement = judge(seam, corner.truth());
+    CHECK(judgement.right);
+    CHECK(judgement.silent.empty());
+  }
+}
