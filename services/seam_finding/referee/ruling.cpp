@@ -40,7 +40,8 @@ class EndRuling {
     if (open) return without_deviation();
     if (!(farthest <=
           std::max(kReferee.always_determined, kReferee.determined * examination_.spacing)))
-      return undetermined(Code::kStartLooselyBounded, Code::kEndLooselyBounded, farthest);
+      return undetermined(Code::kStartLooselyBounded, Code::kEndLooselyBounded,
+                          std::min(farthest, kReferee.reach));
     set_reach(farthest);
     remark(Code::kStartBounded, Code::kEndBounded, farthest);
   }

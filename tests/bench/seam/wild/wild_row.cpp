@@ -33,6 +33,8 @@ void WildRow::add(const WildFacts& facts, const seam_t& seam, const WildJudgemen
   silent_end_ += judgement.silently(Where::kEnd);
   silent_else_ += judgement.silently(Where::kElse);
   if (!judgement.found) {
+    // Of two true seams either is right, and so is it to say that there are several.
+    answered_ += in_view && seam.verdict == seam_t::AMBIGUOUS && facts.sights.size() > 1;
     ++refused_;
     refused_wrong_parts_ += facts.wrong;
     ++refusals_[seam.refusal];

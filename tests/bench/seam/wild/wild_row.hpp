@@ -32,10 +32,11 @@ class WildRow {
   void add(const WildFacts& facts, const seam_t& seam, const WildJudgement& judgement);
 
   // One line to the table, and the figures as NAME.n, NAME.silent_start and so on.
-  // answered: share of the scenes with a start in view whose seam was found and right. seen: share
-  // of right answers with a start that stripes cross that say it is seen. Errors of starts are of
-  // right answers that say they are seen; within_2sigma and beyond_3sigma are of all starts that
-  // carry a deviation, less what the truth leaves open.
+  // answered: share of the scenes with a start in view whose seam was found and right, or told to
+  // be one of several where it is. seen: share of right answers with a start that stripes cross
+  // that say it is seen. Errors of starts are of right answers that say they are seen;
+  // within_2sigma and beyond_3sigma are of all starts that carry a deviation, less what the truth
+  // leaves open.
   void finish(nlohmann::json& json) const;
 
  private:
