@@ -104,8 +104,8 @@ void SeamFindingApp::remember(const CollectedScan& scan) {
   std::size_t points = 0, kept = 0;  // but for the newest no more than one scan's
   for (auto one = backgrounds_.rbegin(); one != backgrounds_.rend(); ++one) {
     points += (*one)->points();
-    if (kept > 0 && (points > kMostPoints ||
-                     kept >= static_cast<std::size_t>(settings_.backgrounds_kept)))
+    if (kept > 0 &&
+        (points > kMostPoints || kept >= static_cast<std::size_t>(settings_.backgrounds_kept)))
       break;
     ++kept;
   }

@@ -74,8 +74,9 @@ std::vector<Told> slopes_told(const std::vector<StripeEvidence>& evidence, const
       const double apart = b->away - a->away;
       if (std::abs(apart) < kEnds.direction_base) continue;
       const double slope = (b->along - a->along) / apart, foot = a->along - slope * a->away;
-      if (std::abs(slope) > kModel.steepest_edge || foot < grid.first || foot > grid.at(grid.count - 1) ||
-          leaving(*a, slope) < kEnds.least_slant || leaving(*b, slope) < kEnds.least_slant)
+      if (std::abs(slope) > kModel.steepest_edge || foot < grid.first ||
+          foot > grid.at(grid.count - 1) || leaving(*a, slope) < kEnds.least_slant ||
+          leaving(*b, slope) < kEnds.least_slant)
         continue;
       double w = 0, r = 0, t = 0, rr = 0, rt = 0;
       for (const EdgeCrossing* edge : edges) {
