@@ -37,6 +37,26 @@ void for_each_on_bead(const ScanCloud& cloud, int first, int last,
   }
 }
 
+// Where neighbours differ by as much as all differ from the line, each stripe errs by itself: the
+// work shakes, or the tool does. Then the line, by all of them, is where the seam runs.
+void put_on_line_if_shaken(const Line& line, std::vector<SeamMeasurement>& places) {
+  double off = 0, change = 0, count = 0, changes = 0;
+  const SeamMeasurement* last = nullptr;
+  for (const SeamMeasurement& place : places) {
+    if (place.residual < 0) continue;
+    off += place.residual * place.residual, ++count;
+    if (last != nullptr) {
+      const Eigen::Vector3d step =
+          place.position - line.at(place.along) - (last->position - line.at(last->along));
+      change += step.squaredNorm() / 2, ++changes;
+    }
+    last = &place;
+  }
+  // Of independent errors both mean squares are alike; of a course that both show, half is noise.
+  if (changes == 0 || off / count > 2 * change / changes) return;
+  for (SeamMeasurement& place : places) place.position = line.at(place.along);
+}
+
 // Where the stripes' heights over the two planes put the seam.
 std::vector<SeamMeasurement> places_by_heights(const ScanCloud& cloud, const Joint& joint,
                                                double begin, double end, double spacing_mm) {
@@ -102,6 +122,7 @@ std::vector<SeamMeasurement> places_by_heights(const ScanCloud& cloud, const Joi
   }
   std::sort(places.begin(), places.end(),
             [](const SeamMeasurement& a, const SeamMeasurement& b) { return a.along < b.along; });
+  put_on_line_if_shaken(line, places);
   return places;
 }
 

@@ -58,6 +58,22 @@ TEST_CASE("a straight seam is a line, and a tack weld on it is seen where it lie
   CHECK(line.deviation == Approx(0).margin(1e-9));
 }
 
+TEST_CASE("stripes of a work that shakes do not draw the seam aside") {
+  // By half a millimetre, each otherwise; and the same beside a bow that is plainly there.
+  const auto shake = [](double x) { return 0.5 * std::sin(7.3 * x * x); };
+  const Made shaken = make(shake, false);
+  const auto places = measure_seam(shaken.cloud, joint_of(shaken), 0, 100, 2);
+  REQUIRE(places.size() == 50);
+  for (const SeamMeasurement& place : places) {
+    CHECK(std::abs(place.position.y()) < 1e-9);
+    CHECK(place.residual == Approx(std::abs(shake(place.along))).margin(1e-6));
+  }
+  const auto bow = [&](double x) { return 2 * std::sin(M_PI * x / 100) + shake(x) / 5; };
+  const Made bowed = make(bow, false);
+  for (const SeamMeasurement& place : measure_seam(bowed.cloud, joint_of(bowed), 0, 100, 2))
+    CHECK(place.position.y() == Approx(bow(place.along)).margin(1e-6));
+}
+
 TEST_CASE("a seam that bows is a polyline that follows it") {
   const auto bow = [](double x) { return 2 * std::sin(M_PI * x / 100); };
   const Made made = make(bow, false);
