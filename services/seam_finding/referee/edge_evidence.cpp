@@ -32,8 +32,13 @@ Split best_split(const Known& known) {
 // What one stripe shows between two distances from the seam.
 class StripeEvidence {
  public:
-  StripeEvidence(const StripeOnPlate& stripe, double begin, double width, const ClaimedEnd& end)
-      : stripe_(stripe), from_(begin + kReferee.step / 2), to_(begin + width), end_(end) {
+  StripeEvidence(const StripeOnPlate& stripe, double border, double begin, double width,
+                 const ClaimedEnd& end)
+      : stripe_(stripe),
+        border_(border),
+        from_(begin + kReferee.step / 2),
+        to_(begin + width),
+        end_(end) {
     for (const Place& place : stripe.places) {
       if (place.away < from_) continue;
       if (place.look == Look::kBefore)
@@ -63,7 +68,7 @@ class StripeEvidence {
 
  private:
   EdgeMark mark(double away) const {
-    return {end_.out(stripe_.crossing + stripe_.lean * away), away};
+    return {end_.out(stripe_.crossing + stripe_.lean * away), away - border_};
   }
 
   void add(int begin, int behind, Look look, std::vector<EdgeMark>& marks) const {
@@ -74,7 +79,7 @@ class StripeEvidence {
       last = known_[i];
     }
     for (const Place* place : {first, last})
-      if (place) marks.push_back({end_.out(place->along), place->away});
+      if (place) marks.push_back({end_.out(place->along), place->away - border_});
   }
 
   void add_dark(double from, double to, EdgeEvidence& evidence) const {
@@ -92,7 +97,7 @@ class StripeEvidence {
   }
 
   const StripeOnPlate& stripe_;
-  double from_, to_;  // away from the seam; mm
+  double border_, from_, to_;  // away from the seam; mm
   const ClaimedEnd& end_;
   Known known_;
   bool nothing_before_ = true;
@@ -100,9 +105,9 @@ class StripeEvidence {
 
 }  // namespace
 
-EdgeEvidence evidence_of(const StripeOnPlate& stripe, double begin, double width,
+EdgeEvidence evidence_of(const StripeOnPlate& stripe, double border, double begin, double width,
                          const ClaimedEnd& end, bool dark_counts) {
-  return StripeEvidence(stripe, begin, width, end).take(dark_counts);
+  return StripeEvidence(stripe, border, begin, width, end).take(dark_counts);
 }
 
 }  // namespace arcstart::seam_finding

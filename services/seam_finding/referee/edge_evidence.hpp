@@ -15,7 +15,7 @@ struct ClaimedEnd {
 };
 
 // A place that the plate must reach, or must not: outward from the claimed end, and away from the
-// seam; mm.
+// plate's border at the seam; mm.
 struct EdgeMark {
   double out, away;
 };
@@ -28,10 +28,10 @@ struct EdgeEvidence {
   bool crosses() const { return !on.empty() && !(off.empty() && dark.empty()); }
 };
 
-// From the stripe's places up to `width` from where the plate begins, both away from the seam; mm.
-// None where they are no part on the plate and one off it. dark_counts: the stripe may lie in the
-// plate's own shadow.
-EdgeEvidence evidence_of(const StripeOnPlate& stripe, double begin, double width,
+// From the stripe's places up to `width` from where the plate begins, both away from the seam, as
+// is its border there, which between crossing plates is the seam; mm. None where they are no part
+// on the plate and one off it. dark_counts: the stripe may lie in the plate's own shadow.
+EdgeEvidence evidence_of(const StripeOnPlate& stripe, double border, double begin, double width,
                          const ClaimedEnd& end, bool dark_counts);
 
 }  // namespace arcstart::seam_finding

@@ -85,7 +85,8 @@ EdgeFit fit_within(const PlateView& view, const std::vector<const StripeOnPlate*
   for (std::size_t i = stripes.size(); i-- > 0;) {
     // The shadow goes on along a slanting edge.
     const bool slanting = dark_beyond && stripes[i]->at_seam == AtSeam::kOn;
-    evidence.push_back(evidence_of(*stripes[i], view.begin, width, end, own_shadow[i] || slanting));
+    evidence.push_back(evidence_of(*stripes[i], view.plate.inset, view.begin, width, end,
+                                   own_shadow[i] || slanting));
     dark_beyond = !evidence.back().dark.empty();
   }
   return fit_waved_edge(evidence);
