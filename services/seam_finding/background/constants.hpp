@@ -9,8 +9,8 @@ namespace arcstart::seam_finding {
 struct BackgroundConstants {
   // Tolerances above a plane that is the background, which belong to it - bench.
   double plane_heights = 5;
-  // mm; width of a cell, at least; in stripe spacings; in steps along a stripe - bench.
-  double least_cell = 4, cell_spacings = 1.5, cell_steps = 1.2;
+  // mm; width of a cell, at least; in spacings of stripes or steps along them - bench.
+  double least_cell = 4, cell_spacings = 1.5;
   // Spread of a window across its stripes, in spacings - between that of two stripes, 0.5, and of
   // three, 0.82.
   double least_spread = 0.6;

@@ -11,9 +11,9 @@
 namespace arcstart::seam_finding {
 namespace {
 
-double cell_size(const Sampling& sampling) {
-  return std::max({kBackground.least_cell, kBackground.cell_spacings * sampling.spacing,
-                   kBackground.cell_steps * sampling.step});
+// mm; where no stripe, or point of one, lies nearer.
+double window(const Sampling& sampling) {
+  return kBackground.cell_spacings * std::max(sampling.spacing, sampling.step);
 }
 
 }  // namespace
@@ -21,7 +21,7 @@ double cell_size(const Sampling& sampling) {
 SurfaceBackground::SurfaceBackground(const ScanCloud& cloud, double distance_mm)
     : sampling_(measure_sampling(cloud)),
       distance_(std::max(distance_mm, 3.5 * sampling_.noise)),
-      grid_(cloud.points, cell_size(sampling_)),
+      grid_(cloud.points, std::max(kBackground.least_cell, window(sampling_))),
       adjacency_(grid_.adjacency()) {
   std::vector<PlaneSums> sums;
   for (int i = 0; i < grid_.cell_count(); ++i) {
@@ -83,7 +83,7 @@ Belonging SurfaceBackground::by_nearest(const Eigen::Vector3d& point,
   if (surface.is_plane)
     return std::abs(surface.plane.signed_distance(point)) <= distance_ ? Belonging::kBackground
                                                                        : Belonging::kOff;
-  const double reach = std::max(distance_, kBackground.cell_spacings / 2 * sampling_.spacing);
+  const double reach = std::max(distance_, window(sampling_) / 2);
   const auto reaches = [&](int i) {
     const Eigen::Vector3d to_box =
         (surfaces_[i].low - point).cwiseMax(point - surfaces_[i].high).cwiseMax(0.0);
