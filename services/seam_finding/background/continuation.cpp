@@ -24,7 +24,7 @@ bool continues_background(const ScanCloud& scan, const std::vector<int>& backgro
     low = low.cwiseMin(scan.points[i]), high = high.cwiseMax(scan.points[i]);
   const double around = 4 * scales.connection;
   PlaneSums in_plane(low);
-  const std::size_t every = 1 + background.size() / kCloud.sample;
+  const std::size_t every = 1 + background.size() / kCloud.small_sample;
   for (std::size_t i = 0; i < background.size(); i += every) {
     const Eigen::Vector3d& p = scan.points[background[i]];
     if (std::abs(face.plane.signed_distance(p)) <= scales.tolerance &&

@@ -11,9 +11,9 @@
 namespace arcstart::seam_finding {
 namespace {
 
-// mm; where no stripe, or point of one, lies nearer.
-double window(const Sampling& sampling) {
-  return kBackground.cell_spacings * std::max(sampling.spacing, sampling.step);
+double cell_size(const Sampling& sampling) {
+  return std::max({kBackground.least_cell, kBackground.cell_spacings * sampling.spacing,
+                   kBackground.cell_steps * sampling.step});
 }
 
 }  // namespace
@@ -21,7 +21,7 @@ double window(const Sampling& sampling) {
 SurfaceBackground::SurfaceBackground(const ScanCloud& cloud, double distance_mm)
     : sampling_(measure_sampling(cloud)),
       distance_(std::max(distance_mm, 3.5 * sampling_.noise)),
-      grid_(cloud.points, std::max(kBackground.least_cell, window(sampling_))),
+      grid_(cloud.points, cell_size(sampling_)),
       adjacency_(grid_.adjacency()) {
   std::vector<PlaneSums> sums;
   for (int i = 0; i < grid_.cell_count(); ++i) {
@@ -83,13 +83,13 @@ Belonging SurfaceBackground::by_nearest(const Eigen::Vector3d& point,
   if (surface.is_plane)
     return std::abs(surface.plane.signed_distance(point)) <= distance_ ? Belonging::kBackground
                                                                        : Belonging::kOff;
-  const double reach = std::max(distance_, window(sampling_) / 2);
+  const double reach = std::max(distance_, kBackground.rough_spacings * sampling_.spacing);
   const auto reaches = [&](int i) {
     const Eigen::Vector3d to_box =
         (surfaces_[i].low - point).cwiseMax(point - surfaces_[i].high).cwiseMax(0.0);
     if (to_box.squaredNorm() > reach * reach) return false;
     const auto inside = grid_.points_in(i);
-    const std::size_t step = 1 + inside.size() / kCloud.crowd;
+    const std::size_t step = 1 + inside.size() / kBackground.nearest_crowd;
     for (std::size_t j = 0; j < inside.size(); j += step)
       if ((grid_.points()[inside[j]] - point).squaredNorm() <= reach * reach) return true;
     return false;
@@ -120,7 +120,7 @@ void SurfaceBackground::classify(std::span<const Eigen::Vector3d> points,
   Place *here = &places[0], *before = &places[1];
   const auto is_here = [&](const Eigen::Vector3d& point) {
     const Eigen::Vector3d off = (point - here->centre).cwiseAbs();
-    return std::max(std::max(off.x(), off.y()), off.z()) < half;
+    return std::max(std::max(off.x(), off.y()), off.z()) < half - kBackground.within_cell;
   };
   const auto go_to = [&](const Eigen::Vector3d& point) {
     const NeighbourGrid::Cell cell = grid_.cell_of(point);

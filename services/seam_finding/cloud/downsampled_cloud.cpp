@@ -27,7 +27,7 @@ void downsample(const ScanCloud& scan, DownsampledCloud& downsampled) {
     for (int i = stripe.first; i < end; ++i, first = last) {
       last = i + 1 == end || origins[i].segment != origins[i + 1].segment;
       if (!first && !last && !origins[i].segment_end &&
-          (points[i] - *kept).squaredNorm() < kCloud.independent * kCloud.independent)
+          (points[i] - *kept).squaredNorm() < kCloud.thinned_step * kCloud.thinned_step)
         continue;
       kept = &points[i];
       few.points.push_back(*kept);

@@ -82,7 +82,7 @@ void NeighbourGrid::sort_cells_in_box(const std::vector<Cell>& cells,
 // Points mostly come in the order of a stripe, many of one cell in a row: a cell is looked up once
 // for a run of them. Sorted are the cells alone, the points then counted into them.
 void NeighbourGrid::sort_cells(const std::vector<Cell>& cells, std::vector<int>& cell_of_point) {
-  grow_slots(1);
+  slots_.assign(kCloud.first_slots, -1);
   std::vector<int> counts;
   for (std::size_t i = 0; i < cells.size(); ++i) {
     const std::uint64_t key = key_of(cells[i]);

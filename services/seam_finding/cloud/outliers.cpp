@@ -44,7 +44,7 @@ std::vector<int> without_outliers(const ScanCloud& cloud, const std::vector<int>
   const auto ask = [&](std::size_t i) {
     grid.nearest_distances(static_cast<int>(i), neighbours, adjacency.of(cells[i]), distances);
   };
-  const std::size_t step = many ? points.size() / kCloud.places : 1;
+  const std::size_t step = many ? points.size() / kCloud.outlier_sample : 1;
   std::vector<double> means;  // where all are asked
   double sum = 0, squares = 0;
   int counted = 0;

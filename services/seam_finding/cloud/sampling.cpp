@@ -28,8 +28,8 @@ double stripe_spacing(const ScanCloud& cloud) {
 // Between neighbours along a stripe, evenly taken where there are many.
 std::vector<double> stripe_steps(const ScanCloud& cloud) {
   std::vector<double> steps;
-  const std::size_t every = 1 + cloud.points.size() / kCloud.sample;
-  for (std::size_t i = 1; i < cloud.points.size(); i += every)
+  const int every = 1 + cloud.size() / kCloud.small_sample;
+  for (int i = 1; i < cloud.size(); i += every)
     if (cloud.origins[i].stripe == cloud.origins[i - 1].stripe &&
         cloud.origins[i].segment == cloud.origins[i - 1].segment)
       steps.push_back((cloud.points[i] - cloud.points[i - 1]).norm());
@@ -46,12 +46,12 @@ double point_spacing(const ScanCloud& cloud) {
   for (int attempt = 0; attempt < 4 && cell > 1e-6; ++attempt, cell *= 2) {
     const NeighbourGrid grid(cloud.points, cell);
     found.clear();
-    const std::size_t step = 1 + cloud.points.size() / kCloud.places;
-    for (std::size_t i = 0; i < cloud.points.size(); i += step) {
-      grid.nearest_distances(static_cast<int>(i), kCloud.neighbours, distances);
+    const int step = std::max(1, cloud.size() / kCloud.spacing_places);
+    for (int i = 0; i < cloud.size(); i += step) {
+      grid.nearest_distances(i, kCloud.neighbours, distances);
       if (distances.size() == kCloud.neighbours) found.push_back(distances.back());
     }
-    if (2 * found.size() * step > cloud.points.size()) break;
+    if (2 * found.size() * static_cast<std::size_t>(step) > cloud.points.size()) break;
   }
   return quantile(found, 0.5) / std::sqrt(2.0);
 }
@@ -61,17 +61,19 @@ double point_spacing(const ScanCloud& cloud) {
 double surface_noise(const ScanCloud& cloud, double radius) {
   if (!(radius > 0)) return 0;
   std::vector<Eigen::Vector3d> points;
-  const std::size_t enough = cloud.organised() ? kCloud.sample : kCloud.loose_sample;
-  const std::size_t every = 1 + cloud.points.size() / enough;
-  for (std::size_t i = 0; i < cloud.points.size(); i += every) points.push_back(cloud.points[i]);
+  const int enough = cloud.organised() ? kCloud.noise_points : kCloud.loose_noise_points;
+  const int every = cloud.size() <= 2 * enough ? 1 : cloud.size() / enough;
+  points.reserve(static_cast<std::size_t>(cloud.size() / every + 1));
+  for (int i = 0; i < cloud.size(); i += every) points.push_back(cloud.points[i]);
   const NeighbourGrid grid(points, radius);
   std::vector<double> found;
-  for (std::size_t i = 0; i < points.size(); i += 1 + points.size() / kCloud.places) {
+  for (std::size_t i = 0; i < points.size();
+       i += std::max<std::size_t>(1, points.size() / kCloud.noise_places)) {
     const Eigen::Vector3d& centre = points[i];
     PlaneSums sums(centre);
     grid.for_each_around(grid.cell_of(centre), [&](int cell) {
       const auto inside = grid.points_in(cell);
-      const std::size_t stride = 1 + inside.size() / kCloud.crowd;
+      const std::size_t stride = 1 + inside.size() / kCloud.noise_crowd;
       for (std::size_t j = 0; j < inside.size(); j += stride)
         if ((points[inside[j]] - centre).squaredNorm() < radius * radius)
           sums.add(points[inside[j]]);
@@ -89,8 +91,8 @@ double surface_noise(const ScanCloud& cloud, double radius) {
 // pitch: of the points in a stripe; mm.
 double stripe_noise(const ScanCloud& cloud, double pitch) {
   std::vector<double> found;
-  const int every = 1 + cloud.size() / static_cast<int>(kCloud.sample);
-  const int beside = std::max(1, static_cast<int>(std::lround(kCloud.independent / pitch)));
+  const int every = 1 + cloud.size() / kCloud.noise_points;
+  const int beside = std::max(1, static_cast<int>(std::lround(kCloud.chord / pitch)));
   for (int i = beside; i + beside < cloud.size(); i += every) {
     const PointOrigin &before = cloud.origins[i - beside], &after = cloud.origins[i + beside];
     if (before.stripe != after.stripe || before.segment != after.segment) continue;

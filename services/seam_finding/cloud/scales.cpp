@@ -17,9 +17,9 @@ Scales scales_of(const ScanCloud& cloud, const Sampling& sampling, double tolera
       std::max(4.0, cloud.organised() ? 2 * std::max(sampling.spacing, sampling.pitch)
                                       : 4 * sampling.spacing);
   // A stripe that crosses the seam has a point within one pitch of it on either plate.
-  scales.contact =
-      std::max({6.0, 3 * scales.tolerance,
-                cloud.organised() ? kCloud.one_step * sampling.pitch : 4 * sampling.spacing});
+  scales.contact = std::max(
+      {6.0, 3 * scales.tolerance,
+       cloud.organised() ? kCloud.contact_pitches * sampling.pitch : 4 * sampling.spacing});
   return scales;
 }
 

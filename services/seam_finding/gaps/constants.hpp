@@ -29,6 +29,10 @@ struct GapConstants {
   double least_behind = 0.3;
   // mm that is seen of it for each mm of gap, at least - bench.
   double flattest = 0.2;
+  // Of the thinning: two steps in one, so that a point between them is kept - bench.
+  double kept_steps = 1.3;
+  // Points that show the thinning - bench.
+  std::size_t thinning_sample = 4000;
   // px; centres so near each other show the corner in any case - bench.
   double fine = 3;
 

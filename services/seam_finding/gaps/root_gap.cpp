@@ -4,7 +4,6 @@
 #include <cmath>
 #include <span>
 
-#include "services/seam_finding/cloud/constants.hpp"
 #include "services/seam_finding/fit/order_statistics.hpp"
 #include "services/seam_finding/gaps/constants.hpp"
 
@@ -99,7 +98,7 @@ bool shows_bends(const std::vector<Place>& piece, double thinning_px) {
   for (std::size_t i = 1; i + 1 < piece.size(); ++i)
     if (std::abs(piece[i].from_start()) < kGaps.clear + kGaps.turn * piece[i].step &&
         distance_px(piece[i - 1], piece[i]) + distance_px(piece[i], piece[i + 1]) <
-            kCloud.one_step * thinning_px)
+            kGaps.kept_steps * thinning_px)
       return true;
   return false;
 }
@@ -158,7 +157,7 @@ std::optional<RootGap> across_the_gap(const std::vector<std::vector<Place>>& pie
 // Between the centres of a stripe where it does not bend; the same all through a scan.
 double thinning_of(const ScanCloud& cloud, const std::vector<int>& points) {
   std::vector<double> steps;
-  for (std::size_t i = 1; i < std::min(points.size(), kCloud.sample); ++i) {
+  for (std::size_t i = 1; i < std::min(points.size(), kGaps.thinning_sample); ++i) {
     const PointOrigin &a = cloud.origins[points[i - 1]], &b = cloud.origins[points[i]];
     if (points[i] == points[i - 1] + 1 && a.stripe == b.stripe && a.segment == b.segment &&
         a.step > 0)
