@@ -120,6 +120,7 @@ SeamResult describe(Joint joint, Findings findings, const SeamFindingSettings& s
   if (result.thickness >= 0) remark({Code::kThickness, result.thickness});
   if (result.groove_angle >= 0) remark({Code::kGroove, result.groove_angle});
   remark(remark_on_gap(result));
+  if (joint.parallel && joint.parallel->floor) remark({Code::kFloorNearTop});
   return result;
 }
 

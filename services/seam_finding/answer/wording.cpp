@@ -35,7 +35,6 @@ constexpr struct {
     {Code::kGrooveAngle, "its groove opens by {deg:.0f} deg"},
     {Code::kGapWidth, "its gap is {n:.1f} mm"},
     {Code::kNotParallel, "its plates are not parallel"},
-    {Code::kLineInPlate, "it is a line in one plate: its floor is seen near the top"},
     {Code::kFewStripesShow, "it shows in {percent:.0f} % of the stripes only"},
     {Code::kPlateNarrow, "one of its plates is too narrow"},
     {Code::kScoreTooNear, "its score is too near the best"},
@@ -98,6 +97,7 @@ constexpr struct {
     {Code::kGroove, "the groove opens by {deg:.0f} deg, its gap is given at the top"},
     {Code::kNoGap, "gap not determined"},
     {Code::kGapLikeNone, "the gap cannot be told from none"},
+    {Code::kFloorNearTop, "a floor is seen in the gap: it may be a line in one plate"},
 };
 
 }  // namespace

@@ -49,8 +49,8 @@ std::vector<Joint> find_joints(const ScanView& scan, std::vector<Face> faces, co
       face.points = scan.all_on_plane(std::move(face.points), face.plane, scales.tolerance);
     parallel = find_parallel_joints(scan.points_for(Stage::kMeasure), faces, scales, settings);
     for (Joint& joint : parallel)
-      if (!joint.flaw && joint.type == JointType::kButt && is_line_in_plate(scan, joint, scales))
-        joint.flaw = {Reason::Code::kLineInPlate};
+      joint.parallel->floor = !joint.flaw && joint.type == JointType::kButt &&
+                              shows_floor_near_top(scan, joint, scales);
   }
   std::erase_if(joints, [&](const Joint& crossing) {
     return std::any_of(parallel.begin(), parallel.end(),

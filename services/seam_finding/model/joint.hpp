@@ -31,6 +31,7 @@ struct ParallelSeam {
   std::vector<Gap> gaps;     // of a butt joint the gap, of a groove its width at the top
   double gap_deviation = 0;  // standard, of each; mm
   bool narrow = false;       // the gap: all stripes together tell its width, none alone
+  bool floor = false;        // of a butt joint: something is seen in the gap, near the plates' tops
 };
 
 struct Joint {

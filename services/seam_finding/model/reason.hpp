@@ -27,7 +27,6 @@ struct Reason {
     kGrooveAngle,       // number: included angle; rad
     kGapWidth,          // number: mm
     kNotParallel,
-    kLineInPlate,     // no butt joint: what is seen between the plates is a floor near their tops
     kFewStripesShow,  // number: share of the stripes, 0..1
     kPlateNarrow,
 
@@ -73,10 +72,11 @@ struct Reason {
     kEndUncertain,
     kStartBetweenStripes,  // known to half a stripe spacing
     kEndBetweenStripes,
-    kThickness,    // number: of a lap's upper plate; mm
-    kGroove,       // number: included angle; rad
-    kNoGap,        // not determined
-    kGapLikeNone,  // smaller than it is known to
+    kThickness,     // number: of a lap's upper plate; mm
+    kGroove,        // number: included angle; rad
+    kNoGap,         // not determined
+    kGapLikeNone,   // smaller than it is known to
+    kFloorNearTop,  // between the plates: it may be a line in one
     // The referee's of an end. number: mm along the seam.
     kStartContradicted,  // by so much, at least: the seam ends elsewhere
     kEndContradicted,

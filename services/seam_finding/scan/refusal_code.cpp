@@ -29,7 +29,6 @@ constexpr struct {
     {Code::kGrooveAngle, seam_t::WRONG_GROOVE_ANGLE},
     {Code::kGapWidth, seam_t::GAP_TOO_WIDE},
     {Code::kNotParallel, seam_t::PLATES_NOT_PARALLEL},
-    {Code::kLineInPlate, seam_t::LINE_IN_PLATE},
     {Code::kFewStripesShow, seam_t::SHOWS_TOO_RARELY},
     {Code::kPlateNarrow, seam_t::PLATE_TOO_NARROW},
     {Code::kNoCloud, seam_t::POINTS_COINCIDE},

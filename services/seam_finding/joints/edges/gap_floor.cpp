@@ -53,7 +53,7 @@ double background_depth(const ScanCloud& cloud, const Segmentation& segmentation
 
 }  // namespace
 
-bool is_line_in_plate(const ScanView& scan, const Joint& joint, const Scales& scales) {
+bool shows_floor_near_top(const ScanView& scan, const Joint& joint, const Scales& scales) {
   const auto seen = seen_between(scan.points_for(Stage::kMeasure), joint, near_plate(scales));
   std::vector<double> depths, places;
   for (const auto& [across, depth] : seen) depths.push_back(depth);

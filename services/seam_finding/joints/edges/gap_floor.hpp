@@ -1,4 +1,4 @@
-// A line in one plate, as a scribed or milled one, that looks like the gap between two.
+// A line in one plate, scribed or milled, looks much like the gap between two.
 #pragma once
 
 #include "services/seam_finding/background/scan_view.hpp"
@@ -12,6 +12,6 @@ namespace arcstart::seam_finding {
 // nearer to the plates' tops than to the background they lie on. A backing, which is no thicker
 // than the plates, and the table itself lie deeper. False where no background is seen beside the
 // joint.
-bool is_line_in_plate(const ScanView& scan, const Joint& joint, const Scales& scales);
+bool shows_floor_near_top(const ScanView& scan, const Joint& joint, const Scales& scales);
 
 }  // namespace arcstart::seam_finding
