@@ -172,8 +172,8 @@ TEST_CASE("a step that touches is a butt joint's as far as the job says, no lap'
       settings.mismatch_max_mm = limit;
       Scene cell = scene;
       cell.boxes.clear();
-      const SurfaceBackground empty(make_scan(cell, with_bends, 1).cloud,
-                                    settings.background_distance());
+      const ScanCloud table = make_scan(cell, with_bends, 1).cloud;
+      const SurfaceBackground empty(table, settings.background_distance());
       const auto number = static_cast<std::uint64_t>(seed);
       const SeamResult result =
           find_seam(make_scan(scene, with_bends, number).cloud, empty, settings, number);
