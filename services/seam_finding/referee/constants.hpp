@@ -2,11 +2,17 @@
 // scripts/bench seam --wild judges the number.
 #pragma once
 
+#include <cstddef>
+
 #include "services/seam_finding/model/constants.hpp"
 
 namespace arcstart::seam_finding {
 
 struct RefereeConstants {
+  // Points, evenly taken, by which a plane or a plate's shape is known well enough - its noise over
+  // their root.
+  std::size_t sample = 4096;
+
   // The sheet of light (stripe_light).
 
   // mm; points that spread less off a line span no plane, and none is off it that is nearer - they

@@ -4,7 +4,6 @@
 #include <algorithm>
 #include <cmath>
 
-#include "services/seam_finding/cloud/constants.hpp"
 #include "services/seam_finding/fit/order_statistics.hpp"
 #include "services/seam_finding/referee/constants.hpp"
 
@@ -55,7 +54,7 @@ std::vector<ShapePlace> places_within(const PlateView& view, double length, cons
     const double level = median(heights);
     for (std::size_t i = before; i < all.size(); ++i) all[i].residual = all[i].height - level;
   }
-  const std::size_t step = 1 + all.size() / kCloud.sample;
+  const std::size_t step = 1 + all.size() / kReferee.sample;
   if (step == 1) return all;
   std::vector<ShapePlace> some;
   some.reserve(all.size() / step + 1);
