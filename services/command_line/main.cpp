@@ -2,11 +2,7 @@
 #include <spdlog/sinks/stdout_sinks.h>
 #include <spdlog/spdlog.h>
 
-#include <cerrno>
-#include <cstdio>
 #include <iostream>
-#include <stdexcept>
-#include <system_error>
 
 #include "common/input_error.hpp"
 #include "common/options.hpp"
@@ -20,20 +16,13 @@
 #include "services/command_line/commands/replay_command.hpp"
 #include "services/command_line/commands/scan_command.hpp"
 #include "services/command_line/commands/time_offset_command.hpp"
+#include "services/command_line/output/standard_output.hpp"
 
 namespace {
 
 void complain(const arcstart::Program& program, const std::exception& error) {
   const std::string command = program.command();
   std::cerr << (command.empty() ? "arcstart" : command) << ": " << error.what() << "\n";
-}
-
-// What was printed and did not arrive, on a full disk, is no result.
-int when_written(const arcstart::Program& program, int exit_code) {
-  if (std::cout.flush() && std::fflush(stdout) == 0 && std::ferror(stdout) == 0) return exit_code;
-  complain(program, std::runtime_error("standard output cannot be written: " +
-                                       std::generic_category().message(errno)));
-  return 2;
 }
 
 }  // namespace
@@ -61,7 +50,9 @@ int main(int argc, char** argv) {
   add_monitor_command(program.app(), exit_code);
   add_cell_command(program.app(), exit_code);
   try {
-    return when_written(program, program.parse(argc, argv).value_or(exit_code));
+    const int code = program.parse(argc, argv).value_or(exit_code);
+    check_standard_output();
+    return code;
   } catch (const std::exception& error) {
     complain(program, error);
     return dynamic_cast<const InputError*>(&error) != nullptr ? 2 : 1;
