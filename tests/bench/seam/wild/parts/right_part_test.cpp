@@ -80,4 +80,6 @@ TEST_CASE("what a stripe shows at the edges of plates side by side does not tilt
   for (int j = 0; j < 2; ++j)
     CHECK(angle_between(Eigen::Vector3d(seam.normals[j]), truth.normals[j]) < 0.03 * kDegree);
   CHECK(std::abs(judge(seam, wild.truth()).start.height) < 0.02);
+  // The referee knows their ends where they are claimed, at the plates' own borders.
+  CHECK(seam.start_visibility == seam_t::SEEN);
 }

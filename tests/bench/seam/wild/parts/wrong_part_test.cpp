@@ -122,17 +122,3 @@ TEST_CASE("a butt joint that may be a line milled in one plate says so") {
   scene.solids = {block(100, 1.4, 9.2, {950, 0, 0}, 0)};
   CHECK_THAT(WildCase(scene).answer(true).remark, Catch::Matchers::Contains(words));
 }
-
-// Its cut, 8 mm high, goes on in the other's face where that has ended already.
-TEST_CASE("outside a corner the longer plate's cut does not make the other one longer") {
-  for (const double yaw : {-18.0, 0.0, 18.0}) {
-    WildWork work = corner_of_plates(yaw);
-    work.first.begin.at_mm = -65;
-    const WildCase corner(scene_of(work, "outside_corner"));
-    const seam_t seam = corner.answer(true);
-    INFO("turned by " << yaw << " deg: " << seam.reason);
-    const WildJudgement judgement = judge(seam, corner.truth());
-    CHECK(judgement.right);
-    CHECK(judgement.silent.empty());
-  }
-}
