@@ -4,6 +4,7 @@
 #include <iostream>
 #include <memory>
 
+#include "common/bus/value_checks.hpp"
 #include "common/options.hpp"
 #include "common/time.hpp"
 #include "services/command_line/live/scan_client.hpp"
@@ -88,6 +89,19 @@ void add_scan_command(CLI::App& parent, int& exit_code) {
               "Longest wait, s, for the scan to begin, and for its seam after its end")
       .show_default()
       .between(0.1, 3600.0);
+  const auto name = [](const std::string& text) {
+    return is_name(text) ? "" : std::string("must be one line of at most 256 bytes");
+  };
+  command
+      .option("--part", options->request.part,
+              "Identifies the workpiece; comes back in the SEAM as `part`")
+      .check(name);
+  command
+      .option("--job", options->request.job,
+              "Name of the job that the scan belongs to; comes back as `job`")
+      .check(name);
+  command.option("--request", options->request.number,
+                 "Number of whoever asks, not 0; comes back as `request`");
   command.footer(
       "Ctrl-C stops the scan and prints what it gave; a second one ends this program alone.\n"
       "Exit: 0 seam found or background stored; 1 ambiguous, refused, or no answer; 2 bad input.");

@@ -133,6 +133,9 @@ void ScanClient::send(std::int8_t action, std::int64_t command_id, std::int64_t 
   command.action = action;
   command.kind = request_.kind;
   command.longest_duration = request_.longest_duration_s;
+  command.request = request_.number;
+  command.job = request_.job;
+  command.part = request_.part;
   bus_.publish(instance_.sensor_channel("SCAN_COMMAND"), command);
   next_send_ = now_ + kSendEvery;
 }

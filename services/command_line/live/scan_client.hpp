@@ -19,8 +19,12 @@ const std::vector<ServiceDescription>& chain_services();
 struct ScanRequest {
   std::int8_t kind = scan_t::WORKPIECE;  // or BACKGROUND
   double longest_duration_s = 30;
-  double timeout_s =
-      10;  // longest wait for an answer: to the start, and for the seam after the scan's end
+  // Longest wait for an answer: to the start, and for the seam after the scan's end.
+  double timeout_s = 10;
+
+  // Come back in the answer.
+  std::int64_t number = 0;    // 0 for none
+  std::string job{}, part{};  // empty for none
 };
 
 class ScanClient {

@@ -130,6 +130,27 @@ TEST_CASE(
   }
 }
 
+TEST_CASE("whoever asks has the number, the job and the part in every command") {
+  Cell cell;
+  ScanRequest request;
+  request.number = 4711;
+  request.job = "bracket";
+  request.part = "K-0815";
+  ScanClient client(*cell.bus, cell.instance, request);
+  cell.on_command = [&](const scan_command_t& command) {
+    cell.tell(scan_t::SCANNING, kScan, command.command_id);
+  };
+  cell.run(client, 1);
+  client.stop();
+  cell.run(client, 1);
+  REQUIRE(cell.commands.size() > 1);  // START and STOP
+  for (const scan_command_t& command : cell.commands) {
+    CHECK(command.request == 4711);
+    CHECK(command.job == "bracket");
+    CHECK(command.part == "K-0815");
+  }
+}
+
 TEST_CASE("a refused start ends with the reason") {
   Cell cell;
   ScanClient client(*cell.bus, cell.instance, {});
