@@ -1,6 +1,7 @@
 #include "services/seam_finding/joints/block_edge.hpp"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 
 #include "common/geometry.hpp"
@@ -25,11 +26,27 @@ bool closes_end(const ScanCloud& cloud, const Face& face, const Joint& joint,
   });
 }
 
+double depth(const JointPlate& plate, const Eigen::Vector3d& point) {
+  return -plate.plane.signed_distance(point);
+}
+
+// How thick each plate may be. One that is thicker than half its width is a bar.
+std::array<double, 2> most_thickness(const ScanCloud& cloud, const Joint& joint) {
+  std::array<double, 2> most;
+  for (int j = 0; j < 2; ++j) {
+    double width = 0;
+    for (const int i : joint.plates[j].points)
+      width = std::max(width, depth(joint.plates[1 - j], cloud.points[i]));
+    most[j] = std::min(kModel.widest_cut, width / 2);
+  }
+  return most;
+}
+
 double share_deep_behind(const ScanCloud& cloud, const Face& face, const Joint& joint) {
+  const auto most = most_thickness(cloud, joint);
   const auto deep = std::count_if(face.points.begin(), face.points.end(), [&](int i) {
-    return std::all_of(joint.plates.begin(), joint.plates.end(), [&](const JointPlate& plate) {
-      return plate.plane.signed_distance(cloud.points[i]) < -kModel.widest_cut;
-    });
+    return depth(joint.plates[0], cloud.points[i]) > most[0] &&
+           depth(joint.plates[1], cloud.points[i]) > most[1];
   });
   return static_cast<double>(deep) / static_cast<double>(face.points.size());
 }

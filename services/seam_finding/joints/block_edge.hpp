@@ -11,8 +11,8 @@
 namespace arcstart::seam_finding {
 
 // Where a face that closes one of the seam's ends shows metal deeper behind both plates than a
-// plate is thick: two plates that meet show there their cuts, and nothing between them. faces: with
-// normals toward the sensor.
+// plate is thick, or than half the plate's width, as far as that was seen: two plates that meet
+// show there their cuts, and nothing between them. faces: with normals toward the sensor.
 bool is_edge_of_block(const ScanCloud& cloud, const std::vector<Face>& faces, const Joint& joint,
                       const Scales& scales);
 

@@ -93,7 +93,10 @@ TEST_CASE("the round edge of a hollow section is no outside corner of two plates
 TEST_CASE("the edge of a solid block is no outside corner of two plates") {
   WildScene scene = scene_of({}, "outside_corner");
   scene.works.clear();
-  scene.solids = {block(70, 45, 45, {950, 80, 0}, -18)};
+  // The smaller one's end is nowhere farther from both sides than a thick plate's cut is wide.
+  const bool small = GENERATE(false, true);
+  scene.solids = {small ? block(45, 26, 29, {950, 80, 0}, -18)
+                        : block(70, 45, 45, {950, 80, 0}, -18)};
   const seam_t edge = WildCase(scene).answer(true);
   INFO(edge.reason);
   CHECK(edge.verdict == seam_t::REFUSED);
