@@ -100,7 +100,8 @@ struct EndConstants {
 
   // mm - half of it gives the same errors: bench.
   double grid_step = 0.05;
-  // mm; inward and outward from where both plates were last shown together - bench.
+  // mm; inward from where both plates were last shown together, and outward from where they were
+  // last seen - bench.
   double inside = 30, outside = 60;
   // Logarithm of what counts beside the best - 1e-9.
   double least_log = -20;

@@ -119,6 +119,16 @@ double whole_variance(const std::vector<EndMode>& modes) {
   return variance;
 }
 
+// As far out as the plate was seen from `along` on, both on the seam's line.
+double farthest_seen(const PlateSight& sight, const Line& seam_line, double along, bool begin) {
+  const double outward = begin ? -1 : 1;
+  double farthest = outward * sight.line.along(seam_line.at(along));
+  for (const StripeEvidence& stripe : sight.evidence[begin ? 0 : 1])
+    for (const Stretch& stretch : stripe.on)
+      farthest = std::max({farthest, stretch[0].out, stretch[1].out});
+  return outward * seam_line.along(sight.line.at(outward * farthest));
+}
+
 SeamEnd end_at(const Joint& joint, const std::array<PlateSight, 2>& sights, RootGaps& gaps,
                SeamSide side, const Scales& scales, const SeamFindingSettings& settings) {
   const bool begin = side == SeamSide::kBegin;
@@ -134,7 +144,10 @@ SeamEnd end_at(const Joint& joint, const std::array<PlateSight, 2>& sights, Root
   PlaceGrid grid;
   grid.step = kEnds.grid_step;
   grid.first = outward * end.along - std::min(half, kEnds.inside);
-  grid.count = static_cast<int>((outward * end.along + kEnds.outside - grid.first) / grid.step);
+  // Where something lies across the seam, both plates may go on behind it.
+  const auto seen = [&](int j) { return farthest_seen(sights[j], joint.line, end.along, begin); };
+  const double last = std::min(seen(0), seen(1)) + kEnds.outside;
+  grid.count = static_cast<int>((last - grid.first) / grid.step);
   std::array<FootLikelihood, 2> plates;
   for (int j = 0; j < 2; ++j) {
     // On the plate's own line, where it lies beside the seam's.

@@ -61,3 +61,18 @@ TEST_CASE("a lap of bent plates starts square below the upper plate's end") {
   INFO("bent by " << work.bow_mm << " mm in 100");
   CHECK(std::abs(start_of(scene).along) < 0.2);  // 0.4 plumb below it
 }
+
+TEST_CASE("a seam starts before what lies across it, however far before") {
+  WildScene scene = bare(GENERATE("tee", "v"));
+  cell_simulator::WildWork& work = scene.works[0];
+  work.second.begin.at_mm = -70, work.second.end.at_mm = 70;
+  work.first.begin.at_mm = -80, work.first.end.at_mm = 80;
+  scene.scan.begin_mm = -100, scene.scan.end_mm = 100;
+  cell_simulator::WildSolid across;
+  across.size_mm = {32, 50, 30};
+  // On the upright's open side, or on both plates.
+  across.position_mm = {924, work.joint == "v" ? 0.0 : -25.0, work.first.thickness_mm + 15};
+  scene.solids = {across};
+  INFO(work.joint);
+  CHECK(std::abs(start_of(scene).along) < 0.2);
+}
