@@ -219,7 +219,8 @@ TEST_CASE("what the set never saw lies where it predicts", "[figures]") {
   CHECK(run.field.size() > 20);
 }
 
-TEST_CASE("a plate of another size than it is said to have is told from the robot's moves") {
+TEST_CASE("a plate of another size than it is said to have is told from the robot's moves",
+          "[figures]") {
   const SimulatedSet& set = well_spread_set();
   const auto views = set.said(0.1, 0.01);
   Target plate = set.plate();
@@ -238,7 +239,7 @@ TEST_CASE("a plate of another size than it is said to have is told from the robo
   CHECK_THAT(scaled(0.1).refused, Contains("pitch_mm of 12 ") && Contains("a unit slips"));
 }
 
-TEST_CASE("another light taken for the stripe is named and does no harm") {
+TEST_CASE("another light taken for the stripe is named and does no harm", "[figures]") {
   const SimulatedSet& set = well_spread_set();
   std::vector<View> views = set.said(0.1, 0.01);
   const double clean = set.end_to_end(calibrated(set, views));

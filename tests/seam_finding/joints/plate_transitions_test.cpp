@@ -62,14 +62,19 @@ TEST_CASE("between two faces each stripe has one transition, with what lies betw
 TEST_CASE("a face's points far from its plane lie between; its segments' ends never do") {
   DrawnPlates drawn;
   drawn.draw_stripe({drawn.run({-20, 0}, {-1, 0}), drawn.run({1, 0}, {20, 0})});
-  const int before_last = drawn.transitions().at(0).last - 1;
-  drawn.cloud.points[before_last].z() = 0.4;  // still the face's own
-  drawn.cloud.points[before_last + 1].z() = 0.4;
-  const auto transitions =
-      transitions_between(drawn.cloud, drawn.sections, drawn.face_of, drawn.faces, 0, 1, 0.15);
-  REQUIRE(transitions.size() == 1);
-  CHECK(across(drawn, transitions[0].last) == Approx(-1));
-  CHECK(transitions[0].between.empty());
+  const int last = drawn.transitions().at(0).last;
+  for (const int i : {last - 1, last}) drawn.cloud.points[i].z() = 0.4;  // still the face's own
+  const auto transition = [&] {
+    const auto all =
+        transitions_between(drawn.cloud, drawn.sections, drawn.face_of, drawn.faces, 0, 1, 0.15);
+    REQUIRE(all.size() == 1);
+    return all[0];
+  };
+  CHECK(transition().last == last);
+  CHECK(transition().between.empty());
+  drawn.cloud.origins[last].segment_end = false;
+  CHECK(transition().last == last - 2);
+  CHECK(transition().between == std::vector<int>{last - 1, last});
 }
 
 TEST_CASE("within one face light that ends and begins again is a transition") {
