@@ -269,7 +269,8 @@ TEST_CASE("rendered scenes: the stripe and little else, accurately") {
   }
 }
 
-TEST_CASE("on coarse grain the centres are measured at a smaller sigma than they are found at") {
+TEST_CASE("on coarse grain the centres are measured at a smaller sigma than they are found at",
+          "[figures]") {
   StripeSceneSettings settings = stripe_scene_settings(StripeSceneKind::kLowContrast);
   settings.width = 900;
   settings.height = 500;

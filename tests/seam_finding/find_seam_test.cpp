@@ -9,6 +9,7 @@
 #include "common/geometry.hpp"
 #include "services/seam_finding/answer/wording.hpp"
 #include "services/seam_finding/background/surface_background.hpp"
+#include "tests/draws.hpp"
 #include "tests/seam_finding/support/synthetic_scan.hpp"
 
 using namespace arcstart;
@@ -17,13 +18,8 @@ using namespace arcstart::seam_finding::synthetic;
 
 namespace {
 
-#if defined(__SANITIZE_ADDRESS__) || defined(__SANITIZE_THREAD__)
-constexpr int kShare = 10;  // of the seeds, for these builds are slow
-#else
-constexpr int kShare = 4;  // all of them: [long]
-#endif
-
-int some(int seeds) { return std::max(2, seeds / kShare); }
+// A quarter of them; all: [long].
+int some(int seeds) { return test::draws(std::max(2, seeds / 4)); }
 
 struct Case {
   Scene scene;

@@ -1,10 +1,14 @@
 // Clouds that no scan should give: a reason, in bounded time and memory.
+#include <sys/resource.h>
+
 #include <catch2/catch.hpp>
+#include <ctime>
 #include <random>
 
 #include "services/seam_finding/answer/wording.hpp"
 #include "services/seam_finding/background/surface_background.hpp"
 #include "services/seam_finding/find_seam.hpp"
+#include "tests/draws.hpp"
 #include "tests/seam_finding/support/synthetic_scan.hpp"
 
 using namespace arcstart;
@@ -12,14 +16,31 @@ using namespace arcstart::seam_finding;
 
 namespace {
 
-#if defined(__SANITIZE_ADDRESS__) || defined(__SANITIZE_THREAD__)
-constexpr int kMany = 100'000;
-#else
-constexpr int kMany = 1'000'000;
-#endif
+constexpr int kMany = test::sanitized ? 100'000 : 1'000'000;
+
+// What a million points take is 0.1 to 1 s of processor time and 36 bytes each (BENCHMARK.md).
+constexpr double kLongest = 10;          // s
+constexpr double kMostMemory = 200'000;  // kB above what the program had before
+
+double processor_seconds() {
+  timespec time{};
+  clock_gettime(CLOCK_PROCESS_CPUTIME_ID, &time);
+  return static_cast<double>(time.tv_sec) + 1e-9 * static_cast<double>(time.tv_nsec);
+}
+
+double peak_memory_kb() {
+  rusage usage{};
+  getrusage(RUSAGE_SELF, &usage);
+  return static_cast<double>(usage.ru_maxrss);
+}
 
 SeamResult find(const ScanCloud& cloud) {
+  const double begin = processor_seconds(), before = peak_memory_kb();
   const SeamResult result = find_seam(cloud, NoBackground(), {}, 1);
+  if (!test::sanitized) {
+    CHECK(processor_seconds() - begin < kLongest);
+    CHECK(peak_memory_kb() - before < kMostMemory);
+  }
   CHECK(result.verdict == SeamResult::Verdict::kRefused);
   CHECK(result.reason);
   return result;

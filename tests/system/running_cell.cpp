@@ -15,6 +15,7 @@
 
 #include "common/time.hpp"
 #include "paths.hpp"
+#include "services/command_line/output/seam_error.hpp"
 
 namespace arcstart {
 namespace {
@@ -34,6 +35,35 @@ std::string changed(const std::string& text, const std::vector<std::string>& cha
         YAML::Load(change.substr(colon + 2));
   }
   return YAML::Dump(cell) + "\n";
+}
+
+// Of the time, at least, in which a service that computes for a sixth of it falls behind.
+constexpr double kWaiting = 0.2;
+
+// Packets that found no room in a socket of this network, so far.
+long dropped_packets() {
+  std::ifstream counters("/proc/net/snmp");
+  std::string names, values;
+  while (std::getline(counters, names) && std::getline(counters, values)) {
+    std::istringstream name(names), value(values);
+    std::string key, number;
+    while (names.rfind("Udp:", 0) == 0 && name >> key && value >> number)
+      if (key == "RcvbufErrors") return std::stol(number);
+  }
+  return 0;
+}
+
+// For how long the process's threads were ready and had no processor, so far; ns.
+std::int64_t waited_for_processor(pid_t pid) {
+  std::int64_t sum = 0;
+  std::error_code gone;
+  for (const auto& task :
+       std::filesystem::directory_iterator("/proc/" + std::to_string(pid) + "/task", gone)) {
+    std::ifstream times(task.path() / "schedstat");
+    std::int64_t ran = 0, waited = 0;
+    if (times >> ran >> waited) sum += waited;
+  }
+  return sum;
 }
 
 }  // namespace
@@ -133,6 +163,22 @@ RunningCell::RunningCell(const std::string& name, const std::vector<std::string>
         status_channel({}, {service, "", service == "robot_pose"}), Queue::newest(),
         [this, service](const service_status_t& m) { heard_.statuses[service] = m; });
   bus_->handle(std::chrono::milliseconds(1));
+  kept_up_until_ = steady_now(), dropped_ = dropped_packets();
+}
+
+bool RunningCell::machine_kept_up() {
+  const std::int64_t now = steady_now();
+  const long dropped = dropped_packets();
+  bool kept_up = dropped == dropped_;
+  for (const auto& [service, process] : processes_) {
+    const std::int64_t waited = waited_for_processor(process->pid());
+    // Both are of the same stretch: ns for each us of it.
+    kept_up &= static_cast<double>(waited - waited_[process->pid()]) <
+               1e3 * kWaiting * static_cast<double>(now - kept_up_until_);
+    waited_[process->pid()] = waited;
+  }
+  kept_up_until_ = now, dropped_ = dropped;
+  return kept_up;
 }
 
 RunningCell::~RunningCell() {
@@ -205,9 +251,10 @@ bool RunningCell::wait_until_ready(double seconds) {
       seconds);
 }
 
-std::int64_t RunningCell::command(std::int8_t action, std::int8_t kind, double longest_duration) {
+std::int64_t RunningCell::command(std::int8_t action, std::int8_t kind, double longest_duration,
+                                  std::int64_t id) {
   scan_command_t command{};
-  command.utime = command.command_id = utime_now();
+  command.utime = command.command_id = id != 0 ? id : utime_now();
   command.action = action;
   command.kind = kind;
   command.longest_duration = longest_duration;
@@ -234,7 +281,7 @@ bool RunningCell::send_to_cell(std::int8_t scene, std::int64_t seed) {
         bus_->handle(std::chrono::milliseconds(200));
         return false;
       },
-      10);
+      30);
 }
 
 bool RunningCell::change_scene(bool workpiece, std::int64_t seed) {
@@ -243,13 +290,34 @@ bool RunningCell::change_scene(bool workpiece, std::int64_t seed) {
 
 bool RunningCell::wait_for_arm() { return send_to_cell(cell_command_t::KEEP, -1); }
 
+std::int64_t RunningCell::begin_scan(std::int8_t kind) {
+  if (!wait_for_arm()) return 0;
+  const std::int64_t id = utime_now();
+  const auto began = [&] {
+    if (heard_.scan && heard_.scan->command_id == id) return true;
+    command(scan_command_t::START, kind, 20, id);  // again: a packet may be lost
+    bus_->handle(std::chrono::milliseconds(200));
+    return false;
+  };
+  return listen_until(began, 30) ? heard_.scan->scan_id : 0;
+}
+
 std::optional<seam_t> RunningCell::scan(std::int8_t kind, double seconds) {
-  if (!wait_for_arm()) return {};
-  const std::int64_t id = command(scan_command_t::START, kind);
-  if (!listen_until([&] { return heard_.scan && heard_.scan->command_id == id; }, 3)) return {};
-  const std::int64_t scan_id = heard_.scan->scan_id;
+  const std::int64_t scan_id = begin_scan(kind);
+  if (scan_id == 0) return {};
   listen_until([&] { return seam_of(scan_id).has_value(); }, seconds);
   return seam_of(scan_id);
+}
+
+bool RunningCell::finds_right_seam() {
+  for (int attempt = 0; attempt < 3; ++attempt) {
+    machine_kept_up();
+    const auto seam = scan(scan_t::WORKPIECE);
+    if (seam && seam->verdict == seam_t::FOUND)
+      return !command_line::seam_error(*seam, *heard_.truth).wrong;
+    if (machine_kept_up()) return false;
+  }
+  return true;
 }
 
 }  // namespace arcstart

@@ -7,7 +7,7 @@
 
 #include "common/instruction_sets.hpp"
 
-#if defined(__x86_64__) && defined(__GNUC__)
+#if defined(__x86_64__) && defined(__GNUC__) && !defined(__clang__)  // builtins of GCC's own
 #include <immintrin.h>
 #endif
 
@@ -71,7 +71,7 @@ ARCSTART_INLINE_BODY Lanes<kFloats> load(const float* from) {
 // Bit i: value i is negative.
 template <int kFloats>
 ARCSTART_INLINE_BODY std::uint32_t signs_of(typename Register<kFloats>::Mask values) {
-#if defined(__x86_64__) && defined(__GNUC__)
+#if defined(__x86_64__) && defined(__GNUC__) && !defined(__clang__)  // builtins of GCC's own
   if constexpr (kFloats == 16) {
     typedef int Ints __attribute__((vector_size(64)));
     return __builtin_ia32_cvtd2mask512((Ints)values);
@@ -87,7 +87,7 @@ ARCSTART_INLINE_BODY std::uint32_t signs_of(typename Register<kFloats>::Mask val
 // Stores the values that bits name one behind the other. A register's room is written to.
 template <int kFloats>
 ARCSTART_INLINE_BODY void store_named(float* to, Lanes<kFloats> values, std::uint32_t bits) {
-#if defined(__x86_64__) && defined(__GNUC__)
+#if defined(__x86_64__) && defined(__GNUC__) && !defined(__clang__)  // builtins of GCC's own
   if constexpr (kFloats == 16) {
     store(to,
           __builtin_ia32_compresssf512_mask(values, Lanes<16>{}, static_cast<std::uint16_t>(bits)));
@@ -102,7 +102,7 @@ ARCSTART_INLINE_BODY void store_named(float* to, Lanes<kFloats> values, std::uin
 // Keeps a value in its register: used twice, it would be loaded twice.
 template <int kFloats, class Vector>
 ARCSTART_INLINE_BODY void keep([[maybe_unused]] Vector& lanes) {
-#if defined(__x86_64__) && defined(__GNUC__)
+#if defined(__x86_64__) && defined(__GNUC__) && !defined(__clang__)  // builtins of GCC's own
   if constexpr (kFloats == 16)
     asm("" : "+v"(lanes));  // any of 32 registers
   else

@@ -79,8 +79,9 @@ ARCSTART_INLINE_BODY void find_extrema(float least_curvature, float farthest,
     const float square = nu * nu + nv * nv, scale = 1 / std::sqrt(square);
     const float t = -(u[i] * nu + v[i] * nv) / (eigenvalue * square);
     const float du = t * nu, dv = t * nv;
+    const float off_u = std::abs(du), off_v = std::abs(dv);
     const bool is_ridge = (half_trace <= 0) & (eigenvalue <= -least_curvature) &
-                          (std::abs(du) <= farthest) & (std::abs(dv) <= farthest);
+                          (off_u <= farthest) & (off_v <= farthest);
     e.column[i] = static_cast<std::int32_t>(pixels.column[begin + i]);
     e.row[i] = static_cast<std::int32_t>(pixels.row[begin + i]);
     e.u[i] = pixels.column[begin + i] + du;

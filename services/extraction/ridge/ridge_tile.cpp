@@ -42,7 +42,7 @@ struct Planes {
 // Eight grey values as floats. The compiler takes a plain loop apart.
 template <int kFloats>
 ARCSTART_INLINE_BODY void widen(const std::uint8_t* from, float* to) {
-#if defined(__x86_64__) && defined(__GNUC__)
+#if defined(__x86_64__) && defined(__GNUC__) && !defined(__clang__)  // builtins of GCC's own
   if constexpr (kFloats >= 8) {
     typedef char Bytes __attribute__((vector_size(16)));
     typedef std::int64_t Longs __attribute__((vector_size(16)));

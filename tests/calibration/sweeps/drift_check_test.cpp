@@ -88,7 +88,8 @@ TEST_CASE("a ball is found among other points, its centre and radius without bia
   CHECK_FALSE(find_ball(points, 20, 0.5));
 }
 
-TEST_CASE("a ball scanned from two sides passes the true calibration and tells a knocked one") {
+TEST_CASE("a ball scanned from two sides passes the true calibration and tells a knocked one",
+          "[figures]") {
   const SimulatedSweepsSettings settings = ball_settings();
   const SweepData record = scans(settings, {0, 180});
   const Calibration right = true_calibration(settings);

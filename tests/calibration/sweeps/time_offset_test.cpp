@@ -175,7 +175,8 @@ TEST_CASE("a corner's two faces and a hand-eye that is off do not move the offse
   CHECK(off.offset_s == Approx(found.offset_s).margin(0.3e-3));
 }
 
-TEST_CASE("the offset of a simulated sensor is found from rough table and jittering stamps") {
+TEST_CASE("the offset of a simulated sensor is found from rough table and jittering stamps",
+          "[figures]") {
   for (const std::uint64_t seed : {702, 703}) {
     const SimulatedSweepsSettings settings = rising_sweeps();
     SweepData record;

@@ -59,7 +59,7 @@ double beyond_edge(const StripeCentre& end, const CutStripe& s) {
 
 }  // namespace
 
-TEST_CASE("a segment ends where an edge cuts off the middle of the stripe") {
+TEST_CASE("a segment ends where an edge cuts off the middle of the stripe", "[figures]") {
   double as_found = 0;
   for (const double slope : {0.05, -0.25, 0.6})
     for (const double width : {1.4, 2.5})

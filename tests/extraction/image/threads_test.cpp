@@ -15,7 +15,7 @@ using namespace arcstart::extraction;
 namespace {
 
 // Neither side a multiple of a block; with noise alone every block is looked at.
-std::vector<cv::Mat> images() {
+std::vector<cv::Mat> rendered() {
   std::vector<cv::Mat> all{expose(darkness(301, 155, 128), 40), cv::Mat(40, 30, CV_8U, 7)};
   for (const StripeSceneKind kind : {StripeSceneKind::kTypical, StripeSceneKind::kGlare,
                                      StripeSceneKind::kSaturated, StripeSceneKind::kLowContrast}) {
@@ -27,6 +27,12 @@ std::vector<cv::Mat> images() {
   cv::Mat down;  // the stripe runs down the image
   cv::rotate(all.back(), down, cv::ROTATE_90_CLOCKWISE);
   all.push_back(down);
+  return all;
+}
+
+// Once for all cases: to render them takes longer than to extract.
+const std::vector<cv::Mat>& images() {
+  static const std::vector<cv::Mat> all = rendered();
   return all;
 }
 

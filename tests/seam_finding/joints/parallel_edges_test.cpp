@@ -3,6 +3,7 @@
 #include <cmath>
 
 #include "services/seam_finding/answer/wording.hpp"
+#include "tests/draws.hpp"
 #include "tests/seam_finding/joints/moved_plates.hpp"
 
 using namespace arcstart;
@@ -12,7 +13,7 @@ using Eigen::Vector3d;
 
 namespace {
 
-constexpr int seeds = 5;
+constexpr int seeds = test::draws(5);
 
 // The second plate raised.
 Scene stepped(const std::string& joint, int seed, double raised_mm) {

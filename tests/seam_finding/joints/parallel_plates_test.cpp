@@ -8,6 +8,7 @@
 #include "services/seam_finding/answer/wording.hpp"
 #include "services/seam_finding/cloud/scales.hpp"
 #include "services/seam_finding/joints/parallel_joints.hpp"
+#include "tests/draws.hpp"
 #include "tests/seam_finding/joints/moved_plates.hpp"
 
 using namespace arcstart;
@@ -17,7 +18,7 @@ using Eigen::Vector3d;
 
 namespace {
 
-constexpr int seeds = 5;
+constexpr int seeds = test::draws(5);
 
 }  // namespace
 

@@ -33,8 +33,8 @@ struct Scene {
 };
 
 struct SceneChoice {
-  // tee; outside_corner, mitred; lap; butt, with a gap of 1 mm; v, of 60 deg with a root gap of 2
-  // mm.
+  // tee; inside_corner, whose base plate ends behind the upright; outside_corner, mitred; lap;
+  // butt, with a gap of 1 mm; v, of 60 deg with a root gap of 2 mm.
   std::string joint = "tee";
   bool workpiece = true;
   bool tool = false;         // left lying on the table beside the workpiece

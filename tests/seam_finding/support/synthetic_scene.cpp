@@ -32,7 +32,13 @@ void add_other_joint(Scene& scene, const std::string& joint, const Eigen::Isomet
   const auto at = [&](double x, double y, double z) { return Vector(x, y, z); };
   Eigen::Isometry3d top = work * Eigen::Translation3d(0, 0, s.base);  // of the first plate
   Vector second = Vector::UnitZ();
-  if (joint == "lap") {
+  if (joint == "inside_corner") {
+    scene.boxes.push_back(
+        standing_box(work, at(-5, -s.thickness, 0), {s.length, s.thickness + s.width / 2, s.base}));
+    scene.boxes.push_back(
+        standing_box(top, at(0, -s.thickness, 0), {s.length, s.thickness, s.height}));
+    second = Vector::UnitY();
+  } else if (joint == "lap") {
     scene.boxes.push_back(standing_box(work, at(-5, -s.width / 2, 0), {s.length, s.width, s.base}));
     scene.boxes.push_back(
         standing_box(top, at(0, -s.height, s.gap), {s.length, s.height, s.thickness}));
@@ -54,7 +60,7 @@ void add_other_joint(Scene& scene, const std::string& joint, const Eigen::Isomet
     scene.boxes.push_back(near);
     scene.boxes.push_back(far);
   }
-  scene.joint_type = joint;
+  scene.joint_type = joint == "inside_corner" ? "corner" : joint;
   scene.start = top * at(0, 0, 0);
   scene.end = top * at(s.length - 5, 0, 0);
   scene.normals[0] = work.linear() * Vector::UnitZ();
