@@ -7,7 +7,15 @@
 namespace arcstart::cell_simulator {
 namespace {
 
-enum Purpose : std::uint64_t { kKind = 21, kWork, kSecondWork, kClutter, kSurroundings, kGround };
+enum Purpose : std::uint64_t {
+  kKind = 21,
+  kWork,
+  kSecondWork,
+  kClutter,
+  kSurroundings,
+  kGround,
+  kCorner
+};
 
 // A part in which the joint asked for is not to be found by anybody.
 WildWork draw_wrong_work(const std::string& asked, Draw& kind, Draw& draw, bool quiet) {
@@ -69,7 +77,11 @@ WildScene draw_wild_scene(const std::string& joint, std::uint64_t seed) {
     scene.works.push_back(other);
   }
   Draw ground(mixed, kGround);
-  for (WildWork& one : scene.works) draw_ground_bands(one, ground);
+  Draw corner(mixed, kCorner);
+  for (WildWork& one : scene.works) {
+    draw_ground_bands(one, ground);
+    draw_corner(one, corner);
+  }
   scene.table = draw_table(surroundings);
   scene.scan = draw_scan(scene.works, surroundings);
   if (quiet) return scene;

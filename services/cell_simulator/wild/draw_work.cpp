@@ -178,6 +178,14 @@ void draw_ribs_and_tabs(WildWork& work, Draw& draw) {
 
 }  // namespace
 
+void draw_corner(WildWork& work, Draw& draw) {
+  if (work.joint != "outside_corner" || draw.chance(0.4)) return;
+  const double which = draw.within(0, 1);
+  work.corner = which < 0.3 ? "over" : which < 0.5 ? "butted" : "open";
+  WildPlate& thicker = draw.chance(0.5) ? work.first : work.second;
+  thicker.thickness_mm = draw.within(thicker.thickness_mm, 12);
+}
+
 WildWork draw_work(const std::string& joint, Draw& draw, bool quiet) {
   WildWork work;
   work.joint = joint;

@@ -33,6 +33,9 @@ WildSurface draw_surface(Draw& draw);
 // Plates with scale: in half of the works ground as far as 10 to 30 mm from the seam.
 void draw_ground_bands(WildWork& work, Draw& draw);
 
+// How an outside corner's plates meet: in four works of ten mitred, else each as thick as it is.
+void draw_corner(WildWork& work, Draw& draw);
+
 // quiet: nothing but the joint itself.
 WildWork draw_work(const std::string& joint, Draw& draw, bool quiet);
 

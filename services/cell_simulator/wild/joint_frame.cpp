@@ -45,6 +45,25 @@ SeamEdge groove_edge(const WildPlate& plate, const WildWork& work) {
           {plate.thickness_mm, 0}};
 }
 
+// Of an outside corner both plates' edges, first and second. Each is square to its plate's face,
+// but for a mitre; the second plate leans about the seam by `lean`.
+std::pair<SeamEdge, SeamEdge> corner_edges(const WildWork& work) {
+  const double first = work.first.thickness_mm, second = work.second.thickness_mm;
+  if (work.corner == "mitred") return {{{0, 0}, {first, first}}, {{0, 0}, {second, second}}};
+  const double lean = (90 - work.angle_deg) * kDegree, sine = std::sin(lean),
+               cosine = std::cos(lean);
+  // Where the first plate's underside meets the second's inner face, from the line in which the
+  // outer faces meet: down the second plate, and along the first.
+  const double down = (first + second * sine) / cosine, along = down * sine + second * cosine;
+  if (work.corner == "open") return {straight(work.first, along), straight(work.second, down)};
+  // No corner of the edge below reaches through the face above it.
+  if (work.corner == "over")
+    return {straight(work.first, 0), straight(work.second, std::max(down, first / cosine))};
+  if (work.corner == "butted")
+    return {straight(work.first, std::max(along, second / cosine)), straight(work.second, 0)};
+  throw SceneError("corner " + work.corner + " is none of mitred, over, butted, open");
+}
+
 }  // namespace
 
 Vector3d PlateFrame::normal() const {
@@ -60,7 +79,7 @@ PlateFrame first_frame(const WildWork& work) {
                    straight(work.first, -work.first.behind_mm)};
   if (work.joint == "outside_corner") {
     frame.away = Vector3d::UnitY();
-    frame.edge = {{0, 0}, {work.first.thickness_mm, work.first.thickness_mm}};  // mitred
+    frame.edge = corner_edges(work).first;
   } else if (work.joint == "butt" || work.joint == "v") {
     frame.edge = groove_edge(work.first, work);
     shift(frame, frame.away, gap_of(work), 0.5);
@@ -80,7 +99,7 @@ PlateFrame second_frame(const WildWork& work) {
   } else if (work.joint == "outside_corner") {
     frame.away = lean * -Vector3d::UnitZ();
     frame.depth = lean * Vector3d::UnitY();
-    frame.edge = {{0, 0}, {work.second.thickness_mm, work.second.thickness_mm}};
+    frame.edge = corner_edges(work).second;
     shift(frame, frame.away, gap_of(work));
   } else if (work.joint == "lap") {
     frame.origin.z() = work.second.thickness_mm;

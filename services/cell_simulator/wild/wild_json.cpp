@@ -22,10 +22,10 @@ NLOHMANN_DEFINE_TYPE_NON_INTRUSIVE_WITH_DEFAULT(WildRib, across_mm, thickness_mm
 NLOHMANN_DEFINE_TYPE_NON_INTRUSIVE_WITH_DEFAULT(WildTab, at_begin, length_mm, half_width_mm,
                                                 thickness_mm, lower_mm)
 NLOHMANN_DEFINE_TYPE_NON_INTRUSIVE_WITH_DEFAULT(WildWork, joint, first, second, second_missing,
-                                                upside_down, angle_deg, gap_begin_mm, gap_end_mm,
-                                                mismatch_begin_mm, mismatch_end_mm, groove_deg,
-                                                root_face_mm, bow_mm, position_mm, yaw_deg,
-                                                tilt_deg, tilt_axis_deg, beads, ribs, tabs)
+                                                upside_down, corner, angle_deg, gap_begin_mm,
+                                                gap_end_mm, mismatch_begin_mm, mismatch_end_mm,
+                                                groove_deg, root_face_mm, bow_mm, position_mm,
+                                                yaw_deg, tilt_deg, tilt_axis_deg, beads, ribs, tabs)
 NLOHMANN_DEFINE_TYPE_NON_INTRUSIVE_WITH_DEFAULT(WildSolid, kind, size_mm, position_mm, quaternion,
                                                 points_mm, with_work, with_background, surface)
 NLOHMANN_DEFINE_TYPE_NON_INTRUSIVE_WITH_DEFAULT(WildTable, size_mm, unevenness_mm, slot_pitch_mm,

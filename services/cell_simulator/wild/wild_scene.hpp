@@ -93,8 +93,11 @@ struct WildWork {
   std::string joint = "tee";  // tee, inside_corner, outside_corner, lap, butt, v
   WildPlate first, second;
   bool second_missing = false, upside_down = false;  // a wrong part
-  double angle_deg = 90;                             // of a tee or a corner, between the faces
-  double gap_begin_mm = 0, gap_end_mm = 0;           // at the ends of the second plate
+  // How an outside corner's plates meet: mitred; over: the first lies on the second's edge; butted:
+  // it ends at the second's inner face; open: their inner edges meet, and leave a notch.
+  std::string corner = "mitred";
+  double angle_deg = 90;                    // of a tee or a corner, between the faces
+  double gap_begin_mm = 0, gap_end_mm = 0;  // at the ends of the second plate
   double mismatch_begin_mm = 0,
          mismatch_end_mm = 0;                    // of butt and V: second plate's top above first
   double groove_deg = 60, root_face_mm = 0;      // of a V

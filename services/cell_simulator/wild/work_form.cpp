@@ -66,6 +66,8 @@ TriangleMesh bead_mesh(const WildBead& bead, const WildWork& work) {
       at.y() = work.second.thickness_mm, at.z() = -work.first.thickness_mm;
   } else if (work.joint == "outside_corner") {
     at += Vector3d(0, 0.4, -0.4) * bead.leg_mm;
+    if (work.corner == "open")  // in the notch
+      at = {bead.along_mm, work.second.thickness_mm, -work.first.thickness_mm};
   }
   // Weld metal goes no further into the joint than this, or it would come out of thin sheet.
   Vector3d low = Vector3d::Constant(-1e9), high = -low;
@@ -157,11 +159,14 @@ WildEnd end_of(const WildWork& work, const RigidTransform& T_base_work,
     end.edge_points[j] = on_edge(0);
     end.edge_directions[j] = (on_edge(1) - on_edge(0)).normalized();
     end.edge_play_mm[j] = 2 * cut.wave_mm;
+    // A groove's faces end at some distance from its middle: where a cut is turned, one of them may
+    // before the seam does.
+    const double aside = std::max(0.0, frames[j].edge.front().second);
+    if (work.joint == "v")
+      end.play_mm = std::max(end.play_mm, out * (s - face_edge(plate, side, aside)));
     if (end.plate != 2 && end.plate != j) continue;
     // Where a chamfer or a radius begins the face ends, and the metal later.
     end.play_mm = std::max({end.play_mm, 2 * cut.wave_mm, cut.chamfer_mm, cut.round_mm});
-    // A groove's faces end at some distance from its middle.
-    const double aside = std::max(0.0, frames[j].edge.front().second);
     end.play_mm = std::max(end.play_mm, std::abs(std::tan(cut.turn_deg * kDegree)) *
                                             (aside + std::max(0.0, gap_at(work, s)) / 2));
   }

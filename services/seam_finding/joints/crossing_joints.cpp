@@ -11,6 +11,7 @@
 #include "services/seam_finding/joints/block_edge.hpp"
 #include "services/seam_finding/joints/constants.hpp"
 #include "services/seam_finding/joints/contact.hpp"
+#include "services/seam_finding/joints/edges/corner_opening.hpp"
 #include "services/seam_finding/joints/groove_faces.hpp"
 
 namespace arcstart::seam_finding {
@@ -75,6 +76,21 @@ Beside look_beside(const ScanCloud& cloud, const Joint& joint, int plate, double
   return beside;
 }
 
+// Of an outside corner's notch, from the line in which the faces' planes cross.
+double notch_reach(const Joint& joint) {
+  return joint.type == JointType::kOutsideCorner
+             ? std::hypot(joint.plates[0].round, joint.plates[1].round)
+             : 0;
+}
+
+// Behind both faces, where the plates of an outside corner leave a notch between their edges.
+bool in_notch(const Joint& joint, const Eigen::Vector3d& point) {
+  return joint.line.distance(point) < notch_reach(joint) &&
+         std::all_of(joint.plates.begin(), joint.plates.end(), [&](const JointPlate& plate) {
+           return plate.plane.signed_distance(point) < 0;
+         });
+}
+
 // In clutter planes can be laid through much; at a joint they account for what is there.
 double explained_share(const ScanCloud& cloud, const std::vector<int>& left, const Joint& joint,
                        double tolerance) {
@@ -85,6 +101,7 @@ double explained_share(const ScanCloud& cloud, const std::vector<int>& left, con
     if (t < joint.coverage.begin || t > joint.coverage.end ||
         joint.line.distance(point) > kModel.beside_seam)
       continue;
+    if (in_notch(joint, point)) continue;
     ++all;
     explained += std::abs(joint.plates[0].plane.signed_distance(point)) <= tolerance ||
                  std::abs(joint.plates[1].plane.signed_distance(point)) <= tolerance;
@@ -159,10 +176,14 @@ std::optional<Joint> pair_up(const ScanCloud& cloud, const std::vector<int>& lef
   joint.faces = {a, b};
   joint.line = *line;
   joint.line.direction = along_search(cloud, line->direction);
+  std::array<double, 2> opening{};
+  if (type == JointType::kOutsideCorner)
+    opening = corner_opening(cloud, {&faces[a], &faces[b]}, *line, scales);
   for (int j = 0; j < 2; ++j) {
     const Face& face = faces[joint.faces[j]];
     JointPlate& plate = joint.plates[j];
     plate.plane = face.plane;
+    plate.round = opening[j];
     if (type != JointType::kOutsideCorner)
       plate.round = round_edge(cloud, face.points, face.plane, faces[joint.faces[1 - j]].plane,
                                *line, scales);
@@ -204,6 +225,14 @@ Reason other_thing(const ScanCloud& cloud, const std::vector<Face>& faces, const
              : Reason{};
 }
 
+// What lies on a corner's plate, beside it, seems to leave a notch over the corner itself.
+bool lies_over_another(const std::vector<Joint>& joints, const Joint& joint) {
+  return std::any_of(joints.begin(), joints.end(), [&](const Joint& other) {
+    return !other.flaw && notch_reach(other) < notch_reach(joint) &&
+           same_seam(joint, other, notch_reach(joint));
+  });
+}
+
 }  // namespace
 
 std::vector<Face> turned_to_sensor(const ScanCloud& cloud, std::vector<Face> faces) {
@@ -238,6 +267,8 @@ std::vector<Joint> find_crossing_joints(const ScanCloud& cloud, const std::vecto
         if (!joint->flaw) joint->flaw = other_thing(cloud, faces, *joint, scales, settings);
         joints.push_back(std::move(*joint));
       }
+  for (Joint& joint : joints)
+    if (!joint.flaw && lies_over_another(joints, joint)) joint.flaw = {Reason::Code::kTooMuchElse};
   return joints;
 }
 

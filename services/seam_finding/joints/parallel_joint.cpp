@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <numeric>
+#include <utility>
 
 #include "services/seam_finding/coverage/coverage.hpp"
 #include "services/seam_finding/coverage/parallel_stations.hpp"
@@ -97,34 +99,84 @@ void judge(const ScanCloud& cloud, const TransitionLine& candidate, bool straigh
     joint.flaw = {Code::kShortlySeen, joint.coverage.covered};
 }
 
-// A stripe that goes straight on across a gap runs over what lies flush beyond the seam's end, as a
-// run-off tab: what it shows is neither plate. A bead between the plates is not as flat.
-void leave_out_what_runs_across(const ScanCloud& cloud, const Scales& scales, Joint& joint) {
-  if (!cloud.organised() || joint.type == JointType::kLap) return;
-  const std::array<Line, 2>& edges = joint.parallel->edges;
-  const Eigen::Vector3d across = joint.plates[1].away;
-  struct Between {
-    int count = 0;
-    double least = std::numeric_limits<double>::infinity(), most = -least;
-  };
-  std::vector<Between> stripes(cloud.stripes.size());
-  for (int i = 0; i < cloud.size(); ++i) {
-    const Eigen::Vector3d& p = cloud.points[i];
-    const double along = edges[0].along(p);
-    const double from = across.dot(p - edges[0].at(along)),
-                 to = across.dot(edges[1].at(edges[1].along(p)) - p);
-    if (from < kJoints.off_border || to < kJoints.off_border) continue;
-    Between& between = stripes[cloud.origins[i].stripe];
-    const double height = joint.plates[from > to ? 1 : 0].plane.signed_distance(p);
-    ++between.count;
-    between.least = std::min(between.least, height), between.most = std::max(between.most, height);
+// Whether a stripe goes straight on across the gap, at the plates' level.
+class GoesStraightOn {
+ public:
+  GoesStraightOn(const ScanCloud& cloud, const Joint& joint, const Scales& scales)
+      : cloud_(cloud),
+        joint_(joint),
+        tolerance_(scales.tolerance),
+        rough_(2 * near_plate(scales)) {}
+
+  // By what lies between the plates; or, where the gap is so wide that stripes show it, by the
+  // piece that reaches from one side of it to the other.
+  bool operator()(const ScanStripe& stripe) const {
+    std::vector<int> between;
+    int from = -1, side = 0;  // the last point beside the gap, and on which plate's side it lies
+    for (int i = stripe.first; i < stripe.first + stripe.count; ++i) {
+      const auto [past_first, before_second] = to_borders(cloud_.points[i]);
+      if (std::min(past_first, before_second) >= kJoints.off_border) between.push_back(i);
+      const int now = past_first < 0 ? -1 : before_second < 0 ? 1 : 0;
+      if (now == 0) continue;
+      if (from >= 0 && now != side && past_first + before_second > 2 * kJoints.off_border &&
+          cloud_.origins[from].segment == cloud_.origins[i].segment && is_flat(from, i))
+        return true;
+      from = i, side = now;
+    }
+    return std::ssize(between) >= kModel.sure_points && is_flat(between);
   }
-  const auto runs_across = [&](int i) {
-    const Between& between = stripes[cloud.origins[i].stripe];
-    return between.count >= kModel.sure_points && between.least > -scales.tolerance &&
-           between.most < scales.tolerance && between.most - between.least < 2 * near_plate(scales);
-  };
-  for (JointPlate& plate : joint.plates) std::erase_if(plate.points, runs_across);
+
+ private:
+  // From the first plate's border and to the second's; mm. Their sum is the gap's width.
+  std::pair<double, double> to_borders(const Eigen::Vector3d& p) const {
+    const Eigen::Vector3d& across = joint_.plates[1].away;
+    const std::array<Line, 2>& edges = joint_.parallel->edges;
+    return {across.dot(p - edges[0].at(edges[0].along(p))),
+            across.dot(edges[1].at(edges[1].along(p)) - p)};
+  }
+  bool is_flat(int from, int to) const {
+    std::vector<int> points(static_cast<std::size_t>(to - from + 1));
+    std::iota(points.begin(), points.end(), from);
+    return is_flat(points);
+  }
+  // A bead between the plates is not as flat.
+  bool is_flat(const std::vector<int>& points) const {
+    double least = std::numeric_limits<double>::infinity(), most = -least;
+    for (const int i : points) {
+      const auto [past_first, before_second] = to_borders(cloud_.points[i]);
+      const JointPlate& nearer = joint_.plates[past_first > before_second ? 1 : 0];
+      const double height = nearer.plane.signed_distance(cloud_.points[i]);
+      least = std::min(least, height), most = std::max(most, height);
+    }
+    return least > -tolerance_ && most < tolerance_ && most - least < rough_;
+  }
+
+  const ScanCloud& cloud_;
+  const Joint& joint_;
+  double tolerance_, rough_;
+};
+
+// Beyond the stripes that show the seam those that go straight on across its gap run over what lies
+// flush there, as a run-off tab: what they show is neither plate. Where those that are to show the
+// seam do so as well, the points are too few to tell.
+void leave_out_what_runs_across(const ScanCloud& cloud, const TransitionLine& candidate,
+                                const Scales& scales, Joint& joint) {
+  if (!cloud.organised() || joint.type == JointType::kLap) return;
+  const GoesStraightOn goes_straight_on(cloud, joint, scales);
+  const auto runs_across = [&](int stripe) { return goes_straight_on(cloud.stripes[stripe]); };
+  std::vector<int> told;
+  for (const Transition& transition : candidate.transitions)
+    if (const int stripe = cloud.origins[transition.last].stripe; !runs_across(stripe))
+      told.push_back(stripe);
+  if (told.empty() || static_cast<double>(told.size()) <
+                          kJoints.through * static_cast<double>(candidate.transitions.size()))
+    return;
+  const auto [first, last] = std::minmax_element(told.begin(), told.end());
+  std::vector<bool> across(cloud.stripes.size());
+  for (int k = 0; k < std::ssize(cloud.stripes); ++k)
+    across[k] = (k < *first || k > *last) && runs_across(k);
+  for (JointPlate& plate : joint.plates)
+    std::erase_if(plate.points, [&](int i) { return across[cloud.origins[i].stripe]; });
 }
 
 // In the middle of the scan's way a plate that a stripe leaves is there for the width alone.
@@ -185,7 +237,7 @@ std::optional<Joint> joint_at(const ScanCloud& cloud, const std::vector<Face>& f
   for (int j = 0; j < 2; ++j)
     joint.plates[j].away =
         (j == 0 ? -1 : 1) * candidate.frame.normal.cross(joint.line.direction).normalized();
-  leave_out_what_runs_across(cloud, scales, joint);
+  leave_out_what_runs_across(cloud, candidate, scales, joint);
   if (joint.plates[0].points.empty() || joint.plates[1].points.empty()) return std::nullopt;
   judge(cloud, candidate, on_the_line(candidate, places, *rough), scales, settings, joint);
   if (!joint.flaw) measure_gaps(cloud, candidate, joint);

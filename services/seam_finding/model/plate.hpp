@@ -22,7 +22,7 @@ struct Face {
 struct JointPlate {
   Plane plane;              // normal out of the metal, toward the sensor
   double contact = 6;       // a point so near the seam's line stands for the plate there; mm
-  double round = 0;         // its edge there is round, and its face begins so far from the line; mm
+  double round = 0;         // edge round, or in a notch: its face begins so far from the line; mm
   std::vector<int> points;  // indices into the cloud, rising
   // In the plate, away from the seam; zero: toward the side that the other plate faces, as where
   // the two form a hollow.

@@ -132,6 +132,14 @@ TEST_CASE("Truth of laps, butt joints, grooves and corners by hand") {
     if (corner.z() > 9.999) nearest = std::max(nearest, corner.y());
   CHECK(nearest == Approx(-1.5 - 8 * std::tan(30 * degree)));
 
+  // The first plate goes on by 30 mm; turned by 45 deg its face there ends 1.5 mm before the seam.
+  groove.works[0].root_face_mm = 0;
+  groove.works[0].groove_deg = 2 * std::atan(3.15) / degree;
+  groove.works[0].first.begin.turn_deg = -45;
+  check_near(seam_of(groove).start.point, {900, 0, 10});
+  CHECK(seam_of(groove).start.play_mm == Approx(1.5));
+  CHECK(seam_of(groove).end.play_mm == 0);
+
   const WildSeam inside = seam_of(plain("inside_corner"));
   CHECK(inside.joint_type == "corner");
   check_near(inside.normals[1], {0, -1, 0});
@@ -141,6 +149,62 @@ TEST_CASE("Truth of laps, butt joints, grooves and corners by hand") {
   check_near(outside.normals[0], {0, 0, 1});
   check_near(outside.normals[1], {0, -1, 0});
   CHECK(outside.angle == Approx(270 * degree));
+}
+
+TEST_CASE(
+    "However an outside corner's plates meet, its seam lies where the outer faces' planes do") {
+  // The edges toward the seam: across of the first plate's, height of the second's over the table.
+  const auto edges = [](const std::string& corner) {
+    WildScene scene = plain("outside_corner");
+    scene.works[0].corner = corner;
+    scene.works[0].first.thickness_mm = 8;
+    const WildSeam seam = seam_of(scene);
+    check_near(seam.start.point - seam.end.point, {-100, 0, 0});
+    const Scene built = build(scene, SceneKind::workpiece);
+    double first = 1e9, second = -1e9;
+    for (const Vector3d& place : built.objects()[1].mesh.corners)
+      first = std::min(first, place.y() - seam.start.point.y());
+    for (const Vector3d& place : built.objects()[2].mesh.corners)
+      second = std::max(second, place.z() - seam.start.point.z());
+    return Eigen::Vector2d(first, second);
+  };
+  CHECK((edges("mitred") - Eigen::Vector2d(0, 0)).norm() < 1e-6);
+  CHECK((edges("over") - Eigen::Vector2d(0, -8)).norm() < 1e-6);
+  CHECK((edges("butted") - Eigen::Vector2d(10, 0)).norm() < 1e-6);
+  CHECK((edges("open") - Eigen::Vector2d(10, -8)).norm() < 1e-6);
+  CHECK_THROWS(edges("round"));
+}
+
+TEST_CASE("The plates of an outside corner that leans do not reach into each other") {
+  for (const double angle : {76.0, 104.0})
+    for (const std::string corner : {"over", "butted", "open"}) {
+      INFO(corner << " at " << angle);
+      WildScene scene = plain("outside_corner");
+      scene.works[0].corner = corner;
+      scene.works[0].angle_deg = angle;
+      const Scene built = build(scene, SceneKind::workpiece);
+      const Vector3d line = seam_of(scene).start.point;
+      const double lean = (90 - angle) * degree;
+      // Into each plate from its face, and away from the seam within it; both are 10 mm thick.
+      const std::array<Vector3d, 2> into{Vector3d(0, 0, -1),
+                                         Vector3d(0, std::cos(lean), std::sin(lean))},
+          away{Vector3d(0, 1, 0), Vector3d(0, std::sin(lean), -std::cos(lean))};
+      double nearest = 1e9;
+      for (const int plate : {0, 1}) {
+        double edge = 1e9;
+        for (const Vector3d& place : built.objects()[1 + plate].mesh.corners)
+          edge = std::min(edge, away[plate].dot(place - line));
+        for (const Vector3d& place : built.objects()[2 - plate].mesh.corners) {
+          const double depth = into[plate].dot(place - line), t = away[plate].dot(place - line);
+          const double off = std::max({-depth, depth - 10, edge - t});
+          CHECK(off > -1e-6);
+          nearest = std::min(nearest, off);
+        }
+      }
+      // They touch; where the corner is obtuse, the edge cut square to its face stands off a
+      // little.
+      CHECK(nearest < (angle > 90 ? 10 * (1 / std::cos(lean) - 1) + 0.5 : 1e-6));
+    }
 }
 
 TEST_CASE("A bowed work's seam is an arc of that height") {

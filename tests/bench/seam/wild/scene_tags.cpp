@@ -43,6 +43,7 @@ class Tags {
     add(work.upside_down, "upside_down");
     add_plate(work.first);
     add_plate(work.second);
+    add(work.joint == "outside_corner", work.corner);
     add(std::abs(work.angle_deg - 90) > 10, "angle_off_90");
     add(std::max(work.gap_begin_mm, work.gap_end_mm) > 0.3, "gap");
     add(std::max(std::abs(work.mismatch_begin_mm), std::abs(work.mismatch_end_mm)) > 0.3,

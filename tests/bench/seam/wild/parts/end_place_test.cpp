@@ -76,3 +76,16 @@ TEST_CASE("a seam starts before what lies across it, however far before") {
   INFO(work.joint);
   CHECK(std::abs(start_of(scene).along) < 0.2);
 }
+
+TEST_CASE(
+    "a butt joint ends where a run-off tab begins, though its gap holds one point of a stripe") {
+  WildScene scene = bare("butt");
+  cell_simulator::WildWork& work = scene.works[0];
+  work.first.behind_mm = 0;
+  work.second.thickness_mm = work.first.thickness_mm;
+  work.first.begin.at_mm = work.second.begin.at_mm;
+  work.gap_begin_mm = work.gap_end_mm = GENERATE(1.5, 2.7);
+  work.tabs = {{true, 20, 30, work.first.thickness_mm, 0}};
+  INFO("gap of " << work.gap_begin_mm << " mm");
+  CHECK(std::abs(start_of(scene).along) < 2);  // 20 at the tab's other end
+}

@@ -108,6 +108,36 @@ TEST_CASE("the edge of a solid block is no outside corner of two plates") {
   CHECK(judge(plates, corner.truth()).right);
 }
 
+// Before the referee, which improves no answer.
+TEST_CASE("plates that meet at their inner edges are an outside corner, a block on one is none") {
+  WildWork work = corner_of_plates(10);
+  work.first.thickness_mm = 12;
+  WildScene scene = scene_of(work, "outside_corner");
+  SECTION("open") {
+    scene.works[0].corner = "open";
+    const WildCase open(scene);
+    const seam_t seam = open.answer(false);
+    INFO(seam.reason);
+    REQUIRE(seam.verdict == seam_t::FOUND);
+    const WildJudgement judgement = judge(seam, open.truth());
+    CHECK(judgement.right);
+    CHECK(std::abs(judgement.start.across) < 0.1);
+    CHECK(std::abs(judgement.start.height) < 0.1);
+  }
+  // With the standing plate its top and its side are as an open corner's faces; but the corner
+  // itself lies between.
+  SECTION("a block beside the corner") {
+    const auto& start = WildCase(scene).truth().seams[0].start.point;
+    const Eigen::Vector3d beside(0, 22, 0);
+    scene.solids = {block(60, 30, 12, Eigen::Vector3d(950, 0, start.z()) + beside, 10)};
+    const WildCase corner(scene);
+    const seam_t seam = corner.answer(false);
+    INFO(seam.reason);
+    CHECK(seam.verdict == seam_t::FOUND);
+    CHECK(judge(seam, corner.truth()).right);
+  }
+}
+
 // The line's floor is a block between two plates, a little lower than they are.
 TEST_CASE("a butt joint that may be a line milled in one plate says so") {
   WildWork work;
