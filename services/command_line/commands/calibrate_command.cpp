@@ -81,9 +81,15 @@ Seen look_at_all(const CalibrateCommandOptions& options, const calibration::Cali
   return seen;
 }
 
+// Beside and renamed: nobody reads half of it, and a full disk leaves what was there.
 void write_file(const fs::path& path, const std::string& text) {
-  if (!(std::ofstream(path, std::ios::binary) << text))
-    throw calibration::CalibrationSetError(path.string() + ": cannot be written");
+  const fs::path part(path.string() + ".part");
+  std::ofstream file(part, std::ios::binary);
+  file << text;
+  file.close();
+  std::error_code error;
+  if (file) fs::rename(part, path, error);
+  if (!file || error) throw calibration::CalibrationSetError(path.string() + ": cannot be written");
 }
 
 void tell(const calibration::CalibrationRun& run, const std::vector<std::string>& missed) {
@@ -129,11 +135,14 @@ int run_command(const CalibrateCommandOptions& options) {
   };
   nlohmann::json json = calibration::to_json(run, missed);
   const bool has_set = run.refused.empty() && run.has_laser;
+  // What misses a limit never replaces the cell's file, which may be in force.
+  const fs::path written =
+      missed.empty() ? output : fs::path(output).replace_extension(".failed.yaml");
   if (has_set) {
     const std::string text =
         calibration::calibration_file_text(calibration::to_calibration(run, options.names));
     json["id"] = calibration::parse_calibration(text, output.string()).id;
-    write_file(output, text);
+    write_file(written, text);
   }
   write_file(fs::path(output).replace_extension(".json"), json.dump(2) + "\n");
   write_file(fs::path(output).replace_extension(".html"),
@@ -145,7 +154,7 @@ int run_command(const CalibrateCommandOptions& options) {
   if (!run.refused.empty()) return 1;
   if (has_set)
     say("calibrate",
-        fmt::format("{}: {}; report beside it, .html and .json", output.string(),
+        fmt::format("{}: {}; report beside it, .html and .json", written.string(),
                     missed.empty()
                         ? fmt::format("laser points of poses it never saw lie within {:.3f} mm RMS",
                                       run.left_one_out.laser_rms_mm)
@@ -193,9 +202,10 @@ void add_calibrate_command(CLI::App& parent, int& exit_code) {
       .show_default();
   command.flag("--continue", options->go_on,
                "With --live: keep the poses that were captured before");
-  command.option("-o,--output", options->output,
-                 "File for the calibration; a report stands beside it, .html and .json "
-                 "(default: FOLDER/calibration.yaml)");
+  command.option(
+      "-o,--output", options->output,
+      "File for the calibration; a report stands beside it, .html and .json. One that misses a "
+      "limit goes to .failed.yaml beside it (default: FOLDER/calibration.yaml)");
   command
       .option("--cell", options->cell,
               "The cell's file, cell.yaml, whose section calibration holds the limits")

@@ -130,11 +130,15 @@ TEST_CASE("a folder gives a calibration that the service reads, with its report"
 TEST_CASE("the cell's limits decide") {
   const SetFolder folder;
   std::ofstream(folder.root / "cell.yaml") << "calibration:\n  leave_one_out_mm: 0.01\n";
+  std::ofstream(folder.root / "set/calibration.yaml") << "in force";
   const auto outcome = folder.run("set --cell cell.yaml");
   CHECK(outcome.code == 1);
   CHECK(nlohmann::json::parse(outcome.out)["verdict"] == "failed");
   CHECK_THAT(outcome.err, Contains("limit missed: leave-one-out"));
-  CHECK(fs::exists(folder.root / "set/calibration.yaml"));
+  CHECK(text_of(folder.root / "set/calibration.yaml") == "in force");
+  const std::string failed = (folder.root / "set/calibration.failed.yaml").string();
+  CHECK(read_calibration_file(failed).id == nlohmann::json::parse(outcome.out)["id"]);
+  CHECK_THAT(outcome.err, Contains("calibration.failed.yaml: not within its limits"));
   std::ofstream(folder.root / "cell.yaml") << "calibration:\n  leave_one_out: 0.01\n";
   CHECK(folder.run("set --cell cell.yaml").code == 2);
 }
