@@ -8,18 +8,19 @@
 #include <map>
 
 #include "services/calibration/files/target_file.hpp"
+#include "services/extraction/files/image_file.hpp"
 
 namespace arcstart::calibration {
 namespace {
 
 namespace fs = std::filesystem;
 
-// The PNG files NNNN.png of a folder, by their number.
+// The images of a folder, NNNN.png and the like, by their number.
 std::map<int, std::string> images_in(const fs::path& folder) {
   std::map<int, std::string> images;
   for (const auto& entry : fs::directory_iterator(folder)) {
     const fs::path& path = entry.path();
-    if (path.extension() != ".png") continue;
+    if (!extraction::is_image_name(path.string())) continue;
     const std::string stem = path.stem().string();
     int index = 0;
     const auto [end, error] = std::from_chars(stem.data(), stem.data() + stem.size(), index);
@@ -29,7 +30,9 @@ std::map<int, std::string> images_in(const fs::path& folder) {
       throw CalibrationSetError(
           fmt::format("{}: two images have the number {}", path.string(), index));
   }
-  if (images.empty()) throw CalibrationSetError(folder.string() + ": holds no images NNNN.png");
+  if (images.empty())
+    throw CalibrationSetError(folder.string() +
+                              ": holds no images NNNN.png, .jpg, .jpeg, .bmp, .tif or .tiff");
   return images;
 }
 

@@ -3,7 +3,7 @@
 //     FOLDER/plate.yaml      pattern: circles | asymmetric_circles | chessboard, columns, rows,
 //                            pitch_mm, radius_mm, origin_dot_radius_mm
 //     FOLDER/poses.csv       index,x,y,z,qw,qx,qy,qz: tool in base; mm
-//     FOLDER/grid/NNNN.png   the plate, laser off
+//     FOLDER/grid/NNNN.png   the plate, laser off; .jpg, .jpeg, .bmp, .tif, .tiff as well
 //     FOLDER/laser/NNNN.png  the stripe on it; no such folder where grid/ shows both
 #pragma once
 

@@ -8,7 +8,8 @@
 
 namespace arcstart::calibration {
 
-// grid: laser off, or both in one; laser: may be the same. Grey, 8 bit.
+// grid: laser off, or both in one, in grey; laser: the same or another, in the laser's channel. 8
+// bit.
 View detect_view(const CalibrationPose& pose, const Target& plate, const cv::Mat& grid,
                  const cv::Mat& laser);
 

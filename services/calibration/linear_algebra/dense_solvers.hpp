@@ -16,4 +16,7 @@ Eigen::VectorXd least_squares(const Eigen::MatrixXd& left, const Eigen::VectorXd
 // The unit direction in which points of this scatter (2 x 2, symmetric) spread least.
 Eigen::Vector2d direction_of_least_spread(const Eigen::Matrix2d& scatter);
 
+// The rotation R for which trace(R^T matrix) is greatest: Procrustes, by SVD.
+Eigen::Matrix3d nearest_rotation(const Eigen::Matrix3d& matrix);
+
 }  // namespace arcstart::calibration

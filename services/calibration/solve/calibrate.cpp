@@ -10,7 +10,7 @@
 #include "common/geometry.hpp"
 #include "services/calibration/adjustment/view_outliers.hpp"
 #include "services/calibration/solve/quality_assessment.hpp"
-#include "services/calibration/stages/quaternion_order.hpp"
+#include "services/calibration/stages/pose_slips.hpp"
 #include "services/calibration/stages/scale_consistency.hpp"
 #include "services/calibration/stages/target_symmetry.hpp"
 
@@ -51,6 +51,18 @@ void find_camera(const Target& plate, int width, int height, CalibrationRun& run
                      run.camera.view_rms[*odd], run.camera.rms)});
     run.views.erase(run.views.begin() + static_cast<std::ptrdiff_t>(*odd));
   }
+}
+
+// All poses, with where the camera saw the plate in those whose image fits it.
+std::vector<PairedPose> paired_poses(const std::vector<View>& views, const CalibrationRun& run) {
+  std::vector<PairedPose> poses;
+  for (const View& view : views) {
+    poses.push_back({view.T_base_tool, {}});
+    for (std::size_t i = 0; i < run.views.size(); ++i)
+      if (run.views[i].index == view.index)
+        poses.back().T_camera_plate = run.camera.T_camera_plate[i];
+  }
+  return poses;
 }
 
 void leave_out(CalibrationRun& run, std::size_t view, const std::string& why) {
@@ -168,12 +180,14 @@ CalibrationRun calibrate(const Target& plate, const std::vector<View>& views, in
     run.refused = error.what();
     return run;
   }
+  run.spread = pose_diversity(run.camera.T_camera_plate);
+  run.refused = diversity_refusal(run.spread);
+  if (run.refused.empty()) run.refused = pose_slip(plate, paired_poses(views, run));
+  if (!run.refused.empty()) return run;
   settle_target_symmetry(plate, run.views, run.camera.T_camera_plate);
   leave_out_wrong_turns(run);
   run.spread = pose_diversity(run.camera.T_camera_plate);
   run.refused = diversity_refusal(run.spread);
-  if (run.refused.empty())
-    run.refused = quaternion_slip(tool_poses(run.views), run.camera.T_camera_plate, plate.points());
   if (run.refused.empty()) run.refused = find_laser_plane(plate, run);
   if (!run.refused.empty()) return run;
   options.progress("adjustment");

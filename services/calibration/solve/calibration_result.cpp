@@ -51,9 +51,12 @@ std::vector<std::string> missed_limits(const CalibrationRun& run, const Calibrat
   std::vector<std::string> missed;
   const auto check = [&](const char* what, double value, double limit, const char* unit,
                          const char* remedy) {
+    constexpr double kMeaningful = 1000;  // px, mm, deg: beyond it the figure says nothing
     if (!(value <= limit))
-      missed.push_back(fmt::format("{} {:.3f} {}, the limit is {} {}: {}", what, value, unit, limit,
-                                   unit, remedy));
+      missed.push_back(fmt::format("{} {} {}, the limit is {} {}: {}", what,
+                                   value < kMeaningful ? fmt::format("{:.3f}", value)
+                                                       : fmt::format("more than {}", kMeaningful),
+                                   unit, limit, unit, remedy));
   };
   const Deviations& found = run.adjustment.deviations;
   check("robot's positions deviate by", found.robot_mm, limits.robot_deviation_mm, "mm",

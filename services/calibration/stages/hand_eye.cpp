@@ -1,10 +1,11 @@
 #include "services/calibration/stages/hand_eye.hpp"
 
-#include <Eigen/SVD>
 #include <algorithm>
 #include <cmath>
 #include <limits>
 #include <opencv2/calib3d.hpp>
+
+#include "services/calibration/linear_algebra/dense_solvers.hpp"
 
 namespace arcstart::calibration {
 namespace {
@@ -128,11 +129,8 @@ RigidTransform mean_plate(const std::vector<RigidTransform>& T_base_tool,
     rotations += plate.linear();
     position += plate.translation();
   }
-  const Eigen::JacobiSVD<Eigen::Matrix3d> svd(rotations, Eigen::ComputeFullU | Eigen::ComputeFullV);
-  Eigen::Matrix3d sign = Eigen::Matrix3d::Identity();
-  sign(2, 2) = (svd.matrixU() * svd.matrixV().transpose()).determinant();
   RigidTransform mean = RigidTransform::Identity();
-  mean.linear() = svd.matrixU() * sign * svd.matrixV().transpose();
+  mean.linear() = nearest_rotation(rotations);
   mean.translation() = position / static_cast<double>(T_base_tool.size());
   return mean;
 }

@@ -36,9 +36,7 @@ struct CalibrateCommandOptions {
   calibration::CalibrationNames names;
 };
 
-cv::Mat read_image(const CalibrateCommandOptions& options, const std::string& path,
-                   const cv::Size& size) {
-  const cv::Mat grey = extraction::read_grey_image(path, options.channel);
+cv::Mat of_size(const cv::Mat& grey, const std::string& path, const cv::Size& size) {
   if (size.area() > 0 && grey.size() != size)
     throw calibration::CalibrationSetError(
         fmt::format("{}: {} x {} pixels, the images before it have {} x {}", path, grey.cols,
@@ -57,10 +55,12 @@ Seen look_at_all(const CalibrateCommandOptions& options, const calibration::Cali
   for (std::size_t i = 0; i < set.poses.size(); ++i) {
     const calibration::CalibrationPose& pose = set.poses[i];
     progress.show(fmt::format("calibrate: pose {} of {}", i + 1, set.poses.size()));
-    const cv::Mat grid = read_image(options, pose.grid, seen.size);
+    const cv::Mat grid = of_size(extraction::read_luminance(pose.grid), pose.grid, seen.size);
     seen.size = grid.size();
-    const cv::Mat laser =
-        pose.laser == pose.grid ? grid : read_image(options, pose.laser, seen.size);
+    const cv::Mat laser = options.without_laser
+                              ? grid
+                              : of_size(extraction::read_grey_image(pose.laser, options.channel),
+                                        pose.laser, seen.size);
     seen.views.push_back(calibration::detect_view(pose, set.plate, grid, laser));
     if (options.without_laser) seen.views.back().stripe.clear();
   }
@@ -81,9 +81,15 @@ Seen look_at_all(const CalibrateCommandOptions& options, const calibration::Cali
   return seen;
 }
 
+// Beside and renamed: nobody reads half of it, and a full disk leaves what was there.
 void write_file(const fs::path& path, const std::string& text) {
-  if (!(std::ofstream(path, std::ios::binary) << text))
-    throw calibration::CalibrationSetError(path.string() + ": cannot be written");
+  const fs::path part(path.string() + ".part");
+  std::ofstream file(part, std::ios::binary);
+  file << text;
+  file.close();
+  std::error_code error;
+  if (file) fs::rename(part, path, error);
+  if (!file || error) throw calibration::CalibrationSetError(path.string() + ": cannot be written");
 }
 
 void tell(const calibration::CalibrationRun& run, const std::vector<std::string>& missed) {
@@ -123,17 +129,20 @@ int run_command(const CalibrateCommandOptions& options) {
     const auto pose =
         std::find_if(set.poses.begin(), set.poses.end(),
                      [&](const calibration::CalibrationPose& p) { return p.index == index; });
-    const cv::Mat grid = extraction::read_grey_image(pose->grid, options.channel);
-    if (pose->laser == pose->grid) return grid;
+    const cv::Mat grid = extraction::read_luminance(pose->grid);
+    if (options.without_laser) return grid;
     return cv::Mat(cv::max(grid, extraction::read_grey_image(pose->laser, options.channel)));
   };
   nlohmann::json json = calibration::to_json(run, missed);
   const bool has_set = run.refused.empty() && run.has_laser;
+  // What misses a limit never replaces the cell's file, which may be in force.
+  const fs::path written =
+      missed.empty() ? output : fs::path(output).replace_extension(".failed.yaml");
   if (has_set) {
     const std::string text =
         calibration::calibration_file_text(calibration::to_calibration(run, options.names));
     json["id"] = calibration::parse_calibration(text, output.string()).id;
-    write_file(output, text);
+    write_file(written, text);
   }
   write_file(fs::path(output).replace_extension(".json"), json.dump(2) + "\n");
   write_file(fs::path(output).replace_extension(".html"),
@@ -145,10 +154,11 @@ int run_command(const CalibrateCommandOptions& options) {
   if (!run.refused.empty()) return 1;
   if (has_set)
     say("calibrate",
-        fmt::format(
-            "{}: laser points of poses it never saw lie within {:.3f} mm RMS; report beside "
-            "it, .html and .json",
-            output.string(), run.left_one_out.laser_rms_mm));
+        fmt::format("{}: {}; report beside it, .html and .json", written.string(),
+                    missed.empty()
+                        ? fmt::format("laser points of poses it never saw lie within {:.3f} mm RMS",
+                                      run.left_one_out.laser_rms_mm)
+                        : "not within its limits, not to be used"));
   return missed.empty() ? 0 : 1;
 }
 
@@ -176,8 +186,10 @@ void add_calibrate_command(CLI::App& parent, int& exit_code) {
   options->names.made = utime_now();
   Command command(parent, "calibrate",
                   "Camera, laser plane and hand-eye from images of a plate and the robot's poses");
-  command.option("folder", options->folder,
-                 "Holds plate.yaml, poses.csv, grid/NNNN.png and laser/NNNN.png");
+  command.option(
+      "folder", options->folder,
+      "Holds plate.yaml, poses.csv, grid/NNNN.png and laser/NNNN.png (or .jpg, .jpeg, .bmp, "
+      ".tif, .tiff); arcstart import calibration makes such a folder");
   command.flag("--live", options->live,
                "In a running cell instead: captures pose after pose and has arcstart-calibration "
                "solve; a simulated cell drives the poses itself");
@@ -190,16 +202,19 @@ void add_calibrate_command(CLI::App& parent, int& exit_code) {
       .show_default();
   command.flag("--continue", options->go_on,
                "With --live: keep the poses that were captured before");
-  command.option("-o,--output", options->output,
-                 "File for the calibration; a report stands beside it, .html and .json "
-                 "(default: FOLDER/calibration.yaml)");
+  command.option(
+      "-o,--output", options->output,
+      "File for the calibration; a report stands beside it, .html and .json. One that misses a "
+      "limit goes to .failed.yaml beside it (default: FOLDER/calibration.yaml)");
   command
       .option("--cell", options->cell,
               "The cell's file, cell.yaml, whose section calibration holds the limits")
       .existing_file();
   command
-      .option("--channel", options->channel,
-              "Colour channel of the laser; needed for true colour alone")
+      .option(
+          "--channel", options->channel,
+          "Colour channel of the laser, for the stripe in coloured images; the plate is sought in "
+          "grey")
       .one_of({"r", "g", "b"});
   command.option("--sensor", options->names.sensor, "Whose calibration it is").show_default();
   command.option("--robot", options->names.robot, "On which robot").show_default();

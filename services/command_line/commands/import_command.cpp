@@ -9,11 +9,17 @@
 #include "common/options.hpp"
 #include "services/calibration/files/calibration_file.hpp"
 #include "services/command_line/commands/say.hpp"
+#include "services/command_line/imports/calibration_source.hpp"
 #include "services/command_line/imports/imported_recording.hpp"
 #include "services/command_line/output/terminal.hpp"
 
 namespace arcstart::command_line {
 namespace {
+
+struct CalibrationOptions {
+  std::string source, plate, output;
+  PoseConvention convention;
+};
 
 struct Options {
   std::string work, background, calibration, output, cell, joint;
@@ -64,6 +70,31 @@ int run(const Options& options) {
   return 0;
 }
 
+int run_calibration(const CalibrationOptions& options) {
+  std::vector<std::string> notes;
+  const CalibrationSource source =
+      read_calibration_source(options.source, options.plate, options.convention, notes);
+  write_calibration_folder(source, options.output);
+  for (const std::string& note : notes) say("import calibration", note);
+  say("import calibration",
+      fmt::format("{}: {} poses{}", options.output, source.poses.size(),
+                  source.laser.empty() ? ", the stripe in the plate's images, if anywhere" : ""));
+  return 0;
+}
+
+void add_pose_options(Command& command, PoseConvention& convention) {
+  command
+      .option("--pose-format", convention.format,
+              "What follows x,y,z of a pose: wxyz qw,qx,qy,qz; xyzw qx,qy,qz,qw; wpr FANUC's "
+              "w,p,r, degrees about fixed x, y, z; rotvec rx,ry,rz, axis times angle in rad; "
+              "matrix, in place of all: 12 numbers, [R t] row by row, or 16")
+      .one_of({"wxyz", "xyzw", "wpr", "rotvec", "matrix"})
+      .show_default();
+  command.option("--pose-units", convention.unit, "Of the positions")
+      .one_of({"mm", "m", "inch"})
+      .show_default();
+}
+
 std::string name_error(const std::string& text) { return is_name(text) ? "" : kNoName; }
 
 void add_import_scan_command(Command& parent, int& exit_code) {
@@ -81,16 +112,7 @@ void add_import_scan_command(Command& parent, int& exit_code) {
               "The sensor's calibration file, as calibrate makes it")
       .required();
   command.option("-o,--output", options->output, "The recording; must not exist").required();
-  command
-      .option("--pose-format", options->convention.format,
-              "What follows x,y,z in poses.csv: wxyz qw,qx,qy,qz; xyzw qx,qy,qz,qw; wpr FANUC's "
-              "w,p,r, degrees about fixed x, y, z; rotvec rx,ry,rz, axis times angle in rad; "
-              "matrix, in place of all: 12 numbers, [R t] row by row, or 16")
-      .one_of({"wxyz", "xyzw", "wpr", "rotvec", "matrix"})
-      .show_default();
-  command.option("--pose-units", options->convention.unit, "Of the positions")
-      .one_of({"mm", "m", "inch"})
-      .show_default();
+  add_pose_options(command, options->convention);
   command
       .option("--channel", options->channel,
               "Colour channel of the laser; without it colour images are turned to grey")
@@ -111,7 +133,7 @@ void add_import_scan_command(Command& parent, int& exit_code) {
       "poses.csv    utime,x,y,z,qw,qx,qy,qz: the tool in base, us of the same clock. The line that "
       "names the columns may be left\n"
       "             out; where it contradicts --pose-format or --pose-units, the scan is refused\n"
-      "frames/      one image a row, NNNN.png, .jpg, .jpeg, .tif or .tiff, 8 bit, of the "
+      "frames/      one image a row, NNNN.png, .jpg, .jpeg, .bmp, .tif or .tiff, 8 bit, of the "
       "calibration's size\n"
       "The pose of an image is that at its stamp plus the calibration's time offset: images "
       "stamped 27.32 ms late have\n"
@@ -119,6 +141,27 @@ void add_import_scan_command(Command& parent, int& exit_code) {
       "work is moved before it.\n"
       "Exit: 0 written; 1 failed; 2 bad input, in one line, and nothing written.");
   command.run([options, &exit_code] { exit_code = run(*options); });
+}
+
+void add_import_calibration_command(Command& parent, int& exit_code) {
+  auto options = std::make_shared<CalibrationOptions>();
+  Command command(parent, "calibration",
+                  "Images of a plate and poses from other programs, as a folder for arcstart "
+                  "calibrate");
+  command.option("SOURCE", options->source, "Folder with the images and the poses").required();
+  command.option("-o,--output", options->output, "The folder to be made; must not exist")
+      .required();
+  command.option("--plate", options->plate,
+                 "plate.yaml, which describes the plate; without it SOURCE/plate.yaml");
+  add_pose_options(command, options->convention);
+  command.footer(
+      "Poses, the tool in base: SOURCE/poses.csv, each row the image's index and a pose; or a file "
+      "a pose, .txt or .yaml,\nwhose name ends with the image's number, in SOURCE/poses or "
+      "SOURCE.\nImages, 8 bit, .png, .jpg, .jpeg, .bmp, .tif or .tiff, whose names end with the "
+      "number: of the plate in SOURCE/grid,\nSOURCE/images or SOURCE, of the stripe on it in "
+      "SOURCE/laser, or in the same ones. They are linked, not copied.\n"
+      "Exit: 0 written; 1 failed; 2 bad input, in one line, and nothing written.");
+  command.run([options, &exit_code] { exit_code = run_calibration(*options); });
 }
 
 }  // namespace
@@ -129,6 +172,7 @@ void add_import_command(CLI::App& parent, int& exit_code) {
   command.footer(
       "arcstart import COMMAND --help tells all of one. Exit: 0 done; 1 failed; 2 bad input.");
   add_import_scan_command(command, exit_code);
+  add_import_calibration_command(command, exit_code);
 }
 
 }  // namespace arcstart::command_line

@@ -3,15 +3,14 @@
 #include <fmt/core.h>
 
 #include <algorithm>
-#include <cctype>
 #include <charconv>
 #include <filesystem>
 #include <map>
 #include <optional>
-#include <set>
 
 #include "services/command_line/imports/csv_table.hpp"
 #include "services/command_line/imports/import_error.hpp"
+#include "services/extraction/files/image_file.hpp"
 
 namespace arcstart::command_line {
 namespace {
@@ -25,20 +24,12 @@ std::optional<int> index_of(const std::string& text) {
   return index;
 }
 
-bool is_image(const fs::path& path) {
-  static const std::set<std::string> endings{".png", ".jpg", ".jpeg", ".tif", ".tiff"};
-  std::string ending = path.extension().string();
-  std::transform(ending.begin(), ending.end(), ending.begin(),
-                 [](unsigned char c) { return std::tolower(c); });
-  return endings.contains(ending);
-}
-
 std::map<int, std::string> images_in(const fs::path& folder) {
   std::error_code error;
   std::map<int, std::string> images;
   for (const auto& entry : fs::directory_iterator(folder, error)) {
     const fs::path& path = entry.path();
-    if (!is_image(path)) continue;
+    if (!extraction::is_image_name(path.string())) continue;
     const auto index = index_of(path.stem().string());
     if (!index) throw ImportError(path.string() + ": is not named after its index, as in 0007.png");
     const auto [other, is_new] = images.emplace(*index, path.string());
@@ -53,7 +44,8 @@ std::map<int, std::string> images_in(const fs::path& folder) {
                     "NNNN.png",
                     folder.string(), error.message()));
   if (images.empty())
-    throw ImportError(folder.string() + ": holds no image NNNN.png, .jpg, .jpeg, .tif or .tiff");
+    throw ImportError(folder.string() +
+                      ": holds no image NNNN.png, .jpg, .jpeg, .bmp, .tif or .tiff");
   return images;
 }
 

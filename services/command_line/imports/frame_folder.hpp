@@ -13,9 +13,9 @@ struct StampedFrame {
   std::string image;       // file
 };
 
-// The images of FOLDER/frames, NNNN.png, .jpg, .jpeg, .tif or .tiff, that FOLDER/frames.csv stamps,
-// by index, their times rising. Images without a stamp are left out and told in notes. The images
-// themselves are not read. Throws ImportError.
+// The images of FOLDER/frames, NNNN.png, .jpg, .jpeg, .bmp, .tif or .tiff, that FOLDER/frames.csv
+// stamps, by index, their times rising. Images without a stamp are left out and told in notes. The
+// images themselves are not read. Throws ImportError.
 std::vector<StampedFrame> read_frame_folder(const std::string& folder,
                                             std::vector<std::string>& notes);
 

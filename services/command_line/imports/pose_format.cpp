@@ -152,22 +152,23 @@ RigidTransform pose_of(PoseFormat format, double unit_mm, std::span<const double
 }
 
 std::string header_error(PoseFormat format, const std::string& unit,
-                         const std::vector<std::string>& header) {
+                         const std::vector<std::string>& header, const std::string& first) {
   std::vector<std::string> names;
   for (const std::string& text : header) names.push_back(column_name(text).name);
   const std::string said = fmt::format("{}", fmt::join(names, ","));
-  if (names.front() != "utime")
-    return fmt::format("the first column is {}, not utime", header.front());
+  if (names.front() != first)
+    return fmt::format("the first column is {}, not {}", header.front(), first);
   for (const auto& [name, other] : pose_formats()) {
-    if (other == format || other == PoseFormat::kMatrix || said != "utime," + pose_columns(other))
+    if (other == format || other == PoseFormat::kMatrix ||
+        said != first + "," + pose_columns(other))
       continue;
     return fmt::format("the columns {} are those of --pose-format {}, not of {}", said, name,
                        name_of(format));
   }
   if (format == PoseFormat::kMatrix) return "";
-  if (said != "utime," + pose_columns(format))
-    return fmt::format("the columns are {}, those of --pose-format {} are utime,{}", said,
-                       name_of(format), pose_columns(format));
+  if (said != first + "," + pose_columns(format))
+    return fmt::format("the columns are {}, those of --pose-format {} are {},{}", said,
+                       name_of(format), first, pose_columns(format));
   for (std::size_t i = 1; i < header.size(); ++i) {
     const std::string told = column_name(header[i]).unit, wanted = unit_of(format, i - 1, unit);
     if (!told.empty() && told != wanted)

@@ -32,8 +32,9 @@ RigidTransform pose_of(PoseFormat format, double unit_mm, std::span<const double
                        std::string& why);
 
 // What a header contradicts in this format and unit; empty where it fits. Capitals do not count. A
-// column may tell its unit: x_mm, w_deg, rx_rad.
+// column may tell its unit: x_mm, w_deg, rx_rad. first: what the column before the pose is called.
 std::string header_error(PoseFormat format, const std::string& unit,
-                         const std::vector<std::string>& header);
+                         const std::vector<std::string>& header,
+                         const std::string& first = "utime");
 
 }  // namespace arcstart::command_line

@@ -2,6 +2,7 @@
 
 #include <fmt/core.h>
 
+#include <cctype>
 #include <cstdint>
 #include <filesystem>
 #include <fstream>
@@ -54,6 +55,25 @@ cv::Mat read_image(const std::string& path) {
     throw ImageFileError(
         fmt::format("{}: not 8 bit a channel; convert it with its full range kept", path));
   return image;
+}
+
+bool is_image_name(const std::string& path) {
+  std::string ending = std::filesystem::path(path).extension().string();
+  for (char& letter : ending)
+    letter = static_cast<char>(std::tolower(static_cast<unsigned char>(letter)));
+  for (const char* known : {".png", ".jpg", ".jpeg", ".bmp", ".tif", ".tiff"})
+    if (ending == known) return true;
+  return false;
+}
+
+cv::Mat read_luminance(const std::string& path) {
+  const cv::Mat image = read_image(path);
+  cv::Mat grey;
+  if (has_colour(image))
+    cv::cvtColor(image, grey, image.channels() == 4 ? cv::COLOR_BGRA2GRAY : cv::COLOR_BGR2GRAY);
+  else
+    cv::extractChannel(image, grey, 0);
+  return grey;
 }
 
 bool has_colour(const cv::Mat& image) {

@@ -19,6 +19,10 @@ class ImageFileError : public InputError {
 // million pixels.
 cv::Mat read_image(const std::string& path);
 
+// Whether a file's name ends as that of an image that can be read: .png, .jpg, .jpeg, .bmp, .tif,
+// .tiff, in small or capital letters.
+bool is_image_name(const std::string& path);
+
 // Three or four channels of which the first three differ.
 bool has_colour(const cv::Mat& image);
 
@@ -26,5 +30,9 @@ bool has_colour(const cv::Mat& image);
 // one, which may be stored as colour with equal channels. Throws ImageFileError as read_image does,
 // and where it has true colour and no channel is named.
 cv::Mat read_grey_image(const std::string& path, const std::string& channel = "");
+
+// 8-bit grey values, for what is black and white under any light: colour is turned to grey. Throws
+// ImageFileError as read_image does.
+cv::Mat read_luminance(const std::string& path);
 
 }  // namespace arcstart::extraction

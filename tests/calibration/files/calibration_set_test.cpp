@@ -61,6 +61,9 @@ TEST_CASE("a sound folder is read, poses by index") {
   CHECK(set.poses[1].T_base_tool.translation() == Eigen::Vector3d(950, 10, 310));
   // w, x = 0.6, 0.8: about x by 2 acos(0.6).
   CHECK(set.poses[1].T_base_tool.linear()(2, 1) == Approx(0.96));
+  fs::rename(folder.root / "laser/0002.png", folder.root / "laser/0002.JPEG");
+  fs::rename(folder.root / "grid/0003.png", folder.root / "grid/3.bmp");
+  CHECK_THAT(read_calibration_set(folder.root.string()).poses[1].laser, Contains("0002.JPEG"));
   fs::remove_all(folder.root / "laser");
   CHECK(read_calibration_set(folder.root.string()).poses[1].laser == set.poses[1].grid);
 }

@@ -85,12 +85,29 @@ struct SetFolder {
 
 TEST_CASE("a folder gives a calibration that the service reads, with its report") {
   const SetFolder folder;
-  const auto outcome = folder.run("set -o made.yaml --sensor LASER1 --time-offset -0.02");
+  // The plate in any colour, the stripe in the laser's, in whatever kind of file.
+  const auto grey = [&](const char* name) {
+    const std::string path = (folder.root / "set" / name).string();
+    const cv::Mat image = cv::imread(path, cv::IMREAD_GRAYSCALE);
+    fs::remove(path);
+    return image;
+  };
+  const auto write = [&](const char* name, const std::vector<cv::Mat>& channels) {
+    cv::Mat image;
+    cv::merge(channels, image);
+    cv::imwrite((folder.root / "set" / name).string(), image);
+  };
+  const cv::Mat grid = grey("grid/0003.png"), laser = grey("laser/0003.png");
+  write("grid/0003.bmp", {grid, grid, grid * 0.9});
+  write("laser/0003.tif", {cv::Mat(grid * 0.5), cv::Mat(grid * 0.5), laser});
+  const auto outcome =
+      folder.run("set -o made.yaml --sensor LASER1 --time-offset -0.02 --channel r");
   REQUIRE(outcome.code == 0);
   const auto json = nlohmann::json::parse(outcome.out);
   CHECK(json["verdict"] == "passed");
   CHECK(json["leave_one_out"]["laser_rms"].get<double>() < 0.4);
   CHECK(json["poses"].size() == kPoses);
+  CHECK(json["left_out"].empty());
 
   const Calibration calibration = read_calibration_file((folder.root / "made.yaml").string());
   CHECK(calibration.id == json["id"]);
@@ -113,11 +130,15 @@ TEST_CASE("a folder gives a calibration that the service reads, with its report"
 TEST_CASE("the cell's limits decide") {
   const SetFolder folder;
   std::ofstream(folder.root / "cell.yaml") << "calibration:\n  leave_one_out_mm: 0.01\n";
+  std::ofstream(folder.root / "set/calibration.yaml") << "in force";
   const auto outcome = folder.run("set --cell cell.yaml");
   CHECK(outcome.code == 1);
   CHECK(nlohmann::json::parse(outcome.out)["verdict"] == "failed");
   CHECK_THAT(outcome.err, Contains("limit missed: leave-one-out"));
-  CHECK(fs::exists(folder.root / "set/calibration.yaml"));
+  CHECK(text_of(folder.root / "set/calibration.yaml") == "in force");
+  const std::string failed = (folder.root / "set/calibration.failed.yaml").string();
+  CHECK(read_calibration_file(failed).id == nlohmann::json::parse(outcome.out)["id"]);
+  CHECK_THAT(outcome.err, Contains("calibration.failed.yaml: not within its limits"));
   std::ofstream(folder.root / "cell.yaml") << "calibration:\n  leave_one_out: 0.01\n";
   CHECK(folder.run("set --cell cell.yaml").code == 2);
 }

@@ -130,6 +130,9 @@ TEST_CASE("image files: grey stored as colour is grey, true colour needs its cha
   CHECK_THROWS_WITH(read_grey_image(path), Catch::Contains("--channel"));
   CHECK(cv::norm(read_grey_image(path, "r"), grey, cv::NORM_INF) == 0);
   CHECK(cv::norm(read_grey_image(path, "b"), grey * 0.2, cv::NORM_INF) == 0);
+  CHECK(cv::norm(read_luminance((folder.path / "c.png").string()), grey, cv::NORM_INF) == 0);
+  // 0.114 blue + 0.587 green + 0.299 red, ITU-R BT.601.
+  CHECK(cv::norm(read_luminance(path), grey * 0.6153, cv::NORM_INF) <= 1);
 }
 
 TEST_CASE("image files that are none, or too deep, or too large, are refused in one line") {
