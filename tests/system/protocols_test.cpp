@@ -23,8 +23,9 @@ RunningCell cell_of_protocols(const std::string& name, Changes changes = {}) {
   return RunningCell(name, changes);
 }
 
-const Changes kHspo = {"robot_pose.protocol: hspo"};
-const Changes kJ519 = {"robot_pose.protocol: j519", "robot_pose.controller_port: 60025"};
+const Changes kHspo = {"robot_pose.protocol: hspo", "robot_pose.port: 60015"};
+const Changes kJ519 = {"robot_pose.protocol: j519", "robot_pose.controller_port: 60025",
+                       "robot_pose.port: 60016"};
 const Changes kRtde = {"robot_pose.protocol: rtde", "robot_pose.controller_port: 30004"};
 
 void take_positions_by(RunningCell& cell, const Changes& protocol) {
@@ -42,6 +43,7 @@ seam_t scanned(RunningCell& cell, std::int8_t source) {
   CHECK(seam->profiles_lost == 0);
   CHECK(cell.heard().poses.back().source == source);
   CHECK(cell.status("robot_pose").lost == 0);
+  CHECK(cell.status("robot_pose").undecodable == 0);
   return *seam;
 }
 

@@ -17,6 +17,7 @@ constexpr int kJ519Port = 60015;
 J519Source::J519Source(const RobotPoseSettings& settings, std::function<void()> notify)
     : listener_(settings.address, settings.port, std::move(notify)),
       session_(tool_in_flange(settings.tool_in_flange)),
+      address_(settings.address),
       controller_(settings.controller_address),
       controller_port_(settings.controller_port ? settings.controller_port : kJ519Port) {}
 
@@ -28,6 +29,11 @@ void J519Source::start() {
   if (controller_.empty())
     throw std::runtime_error(
         "robot_pose.controller_address: protocol j519 needs the address of the controller");
+  if (address_.starts_with("127.") && !controller_.starts_with("127."))
+    throw std::runtime_error(fmt::format(
+        "robot_pose.address: {} hears this host alone: set this host's address in the network of "
+        "the controller {}",
+        address_, controller_));
   listener_.start();
 }
 

@@ -27,7 +27,7 @@ class J519Source : public PoseSource {
  private:
   UdpListener listener_;
   J519Session session_;
-  std::string controller_;
+  std::string address_, controller_;
   int controller_port_;
   std::int64_t foreign_ = 0;
   std::string session_error_, last_error_;

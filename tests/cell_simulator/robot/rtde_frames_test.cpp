@@ -77,7 +77,19 @@ TEST_CASE("RTDE data: 108 bytes for time, pose and joints, in metres and radians
         "c018000000000000");
 }
 
-TEST_CASE("RTDE rotation vectors, half turns among them") {
+TEST_CASE("RTDE rotation vectors of exact half turns, where there is no sine") {
+  for (const Eigen::Vector3d& axis :
+       {Eigen::Vector3d(1, 0, 0), Eigen::Vector3d(0, 0, 1), Eigen::Vector3d(0.6, 0, -0.8)}) {
+    RigidTransform transform = RigidTransform::Identity();
+    transform.linear() = 2 * axis * axis.transpose() - Eigen::Matrix3d::Identity();
+    const auto values = to_rotation_vector(transform);
+    const Eigen::Vector3d vector(values[3], values[4], values[5]);
+    CHECK(vector.norm() == Approx(3.141592653589793));
+    CHECK(vector.cross(axis).norm() < 1e-9);
+  }
+}
+
+TEST_CASE("RTDE rotation vectors, nearly half turns among them") {
   using Eigen::AngleAxisd, Eigen::Vector3d;
   for (const Vector3d& axis :
        {Vector3d(1, 0, 0), Vector3d(0, -1, 0), Vector3d(2, -1, 0.5), Vector3d(-0.1, 0.2, -0.9)})

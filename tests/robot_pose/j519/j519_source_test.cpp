@@ -92,7 +92,11 @@ TEST_CASE("J519 source: question, start, positions, stop, all from the one port"
   CHECK(controller.receive([] {}) == from_hex("00000002 00000004"));
 }
 
-TEST_CASE("J519 source: without a controller's address it does not start") {
+TEST_CASE("J519 source: without addresses at which it can be heard it does not start") {
   J519Source source({}, [] {});
   CHECK_THROWS_WITH(source.start(), Catch::Contains("robot_pose.controller_address"));
+  RobotPoseSettings settings;
+  settings.controller_address = "192.0.2.7";
+  J519Source deaf(settings, [] {});
+  CHECK_THROWS_WITH(deaf.start(), Catch::Contains("robot_pose.address: 127.0.0.1 hears this host"));
 }
