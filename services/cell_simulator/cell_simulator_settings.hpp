@@ -35,12 +35,17 @@ struct CellSimulatorSettings {
   double camera_clock_start_s = 4321;  // what the camera's clock shows when the simulator starts
   double camera_clock_drift_ppm = 12;  // above 0: it runs fast
 
-  // The robot: FANUC M-20iA, HSPO (R891) over UDP.
+  // The robot: FANUC M-20iA, HSPO (R891) over UDP. The same arm also speaks J519 and RTDE where
+  // these have a port, for `robot_pose: protocol`.
   std::string hspo_host = "127.0.0.1";  // where its packets go
   int hspo_port = 60015;
   double hspo_period_ms = 20;
   double hspo_tick_us = 1;          // of the controller's clock
   bool hspo_joints = true;          // beside the tool centre point, in the same packet
+  int j519_port = 0;                // at 127.0.0.1; 0: not served
+  int j519_version = 4;             // the newest that it has: 3 or 4
+  bool j519_tool = true;            // positions of the tool centre point, else of the flange
+  int rtde_port = 0;                // at 127.0.0.1; 0: not served
   double position_noise_mm = 0.02;  // standard deviation on x, y and z each
   double robot_clock_start_s = 1234;
   double robot_clock_drift_ppm = -9;
@@ -90,6 +95,10 @@ struct CellSimulatorSettings {
     visitor("hspo_period_ms", hspo_period_ms, between(1, 1000));
     visitor("hspo_tick_us", hspo_tick_us, between(0.1, 100000));
     visitor("hspo_joints", hspo_joints);
+    visitor("j519_port", j519_port, between(0, 65535));
+    visitor("j519_version", j519_version, between(1, 4));
+    visitor("j519_tool", j519_tool);
+    visitor("rtde_port", rtde_port, between(0, 65535));
     visitor("position_noise_mm", position_noise_mm, between(0, 10));
     visitor("robot_clock_start_s", robot_clock_start_s, between(0, 1e9));
     visitor("robot_clock_drift_ppm", robot_clock_drift_ppm, between(-1000, 1000));

@@ -112,9 +112,44 @@ SimulatedCell::SimulatedCell(const CellSimulatorSettings& given, std::int64_t no
         if (faults_.robot_silent(instant)) packet.clear();
         return packet;
       });
+  serve_protocols(now);
+}
+
+// One arm, a controller a protocol: each with noise of its own.
+void SimulatedCell::serve_protocols(std::int64_t now) {
+  const auto controller = [&](std::uint64_t number) {
+    RobotControllerSettings settings = controller_settings(settings_, now);
+    settings.joints_too = true;
+    settings.seed = mixed(seed_, kPositionNoise, number);
+    return std::make_unique<RobotController>(
+        settings, [this](std::int64_t utime) { return reported_pose(utime); });
+  };
+  const auto report = [this](RobotController& of) {
+    return [this, &of](std::int64_t instant) -> std::optional<RobotReport> {
+      if (faults_.robot_silent(instant)) return std::nullopt;
+      return of.report(instant, faults_.robot_clock_back_us(instant));
+    };
+  };
+  const DeviceClock own =
+      clock(now, settings_.robot_clock_start_s, settings_.robot_clock_drift_ppm);
+  if (settings_.j519_port > 0) {
+    j519_controller_ = controller(1);
+    j519_ = std::make_unique<J519Server>(
+        J519ServerSettings{"127.0.0.1", settings_.j519_port, settings_.j519_version,
+                           settings_.j519_tool, own},
+        report(*j519_controller_));
+  }
+  if (settings_.rtde_port > 0) {
+    rtde_controller_ = controller(2);
+    rtde_ = std::make_unique<RtdeServer>(
+        RtdeServerSettings{"127.0.0.1", settings_.rtde_port, tool_of(settings_), own},
+        report(*rtde_controller_));
+  }
 }
 
 SimulatedCell::~SimulatedCell() {
+  rtde_.reset();
+  j519_.reset();
   sender_.reset();
   camera_.close();
 }

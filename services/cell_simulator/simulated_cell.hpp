@@ -11,7 +11,9 @@
 #include "services/cell_simulator/cell_simulator_settings.hpp"
 #include "services/cell_simulator/image/plate_view.hpp"
 #include "services/cell_simulator/robot/hspo_sender.hpp"
+#include "services/cell_simulator/robot/j519_server.hpp"
 #include "services/cell_simulator/robot/robot_controller.hpp"
+#include "services/cell_simulator/robot/rtde_server.hpp"
 #include "services/cell_simulator/robot/search_motion.hpp"
 #include "services/cell_simulator/wild/wild_build.hpp"
 
@@ -21,7 +23,7 @@ namespace arcstart::cell_simulator {
 class SimulatedCell {
  public:
   // Throws SceneError, GigeCameraError, HspoSenderError, and std::runtime_error where the arm
-  // cannot reach the taught positions.
+  // cannot reach the taught positions or a protocol's port is taken.
   SimulatedCell(const CellSimulatorSettings& settings, std::int64_t now);
   ~SimulatedCell();
 
@@ -61,6 +63,7 @@ class SimulatedCell {
   Scene make(SceneKind kind, std::uint64_t seed) const;
   void render(const SimulatedFrame& frame, std::uint8_t* grey);
   RigidTransform reported_pose(std::int64_t utime) const;
+  void serve_protocols(std::int64_t now);
 
   std::optional<WildScene> wild_;
   CellSimulatorSettings settings_;  // with what a scene of the wild brings along
@@ -80,6 +83,9 @@ class SimulatedCell {
   ImageRenderer renderer_;  // used by the camera's threads alone, one at a time
   GigeCamera camera_;
   std::unique_ptr<HspoSender> sender_;
+  std::unique_ptr<RobotController> j519_controller_, rtde_controller_;
+  std::unique_ptr<J519Server> j519_;
+  std::unique_ptr<RtdeServer> rtde_;
 };
 
 }  // namespace arcstart::cell_simulator

@@ -107,10 +107,9 @@ void RobotPoseApp::judge(std::int64_t now) {
   health_.last_error = error_;
   if (now - position_heard_ > silence) {
     health_.state = service_status_t::FAULT;
-    health_.last_error = fmt::format(
-        "no position from the robot for {} s ({}): is the controller on, HSPO enabled "
-        "($MCGR_CFG.$ENABLE), and its host address and port this host's?",
-        settings_.silence_s, source_->description());
+    health_.last_error =
+        fmt::format("no position from the robot for {} s ({}): {}", settings_.silence_s,
+                    source_->description(), source_->why_silent());
     if (!error_.empty()) health_.last_error += " Last trouble: " + error_;
   } else if (now - valid_heard_ > silence) {
     health_.state = service_status_t::FAULT;

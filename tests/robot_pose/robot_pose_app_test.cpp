@@ -28,6 +28,7 @@ struct ScriptedSource : PoseSource {
   PoseSourceCounts counts() const override { return numbers; }
   std::string last_error() const override { return error; }
   std::string description() const override { return "a script"; }
+  std::string why_silent() const override { return "it has ended"; }
 };
 
 struct Cell {
@@ -190,8 +191,8 @@ TEST_CASE("robot_pose: health") {
   std::this_thread::sleep_for(std::chrono::milliseconds(60));
   cell.step();
   CHECK(cell.app->health().state == service_status_t::FAULT);
-  CHECK(cell.app->health().last_error.find("no position from the robot for 0.05 s (a script)") ==
-        0);
+  CHECK(cell.app->health().last_error.find("no position from the robot for 0.05 s (a script): "
+                                           "it has ended") == 0);
 
   cell.report(1, 0, kStart);
   cell.step();

@@ -185,6 +185,11 @@ RunningCell::~RunningCell() {
   for (auto& [service, process] : processes_) process->send(SIGTERM);
 }
 
+void RunningCell::change(const std::vector<std::string>& changes) {
+  const std::string text = changed(read_file(cell_file()), changes);
+  std::ofstream(cell_file()) << text;
+}
+
 const std::vector<std::string>& RunningCell::services() {
   static const std::vector<std::string> names = {"cell_simulator", "calibration", "robot_pose",
                                                  "sensor_capture", "extraction",  "reconstruction",

@@ -58,6 +58,9 @@ class RunningCell {
   RunningCell(const std::string& name, const std::vector<std::string>& changes = {});
   ~RunningCell();
 
+  // The same for services that are started from now on.
+  void change(const std::vector<std::string>& changes);
+
   static const std::vector<std::string>& services();
   void start(const std::string& service, const std::vector<std::string>& options = {});
   void start_all();

@@ -17,6 +17,12 @@ struct DeviceClock {
     return start_ns + elapsed_us * 1000 +
            std::llround(static_cast<double>(elapsed_us) * drift_ppm * 1e-3);
   }
+
+  // Host time at which it shows so much; us, UTC.
+  std::int64_t utime(std::int64_t shown_ns) const {
+    const double elapsed_ns = static_cast<double>(shown_ns - start_ns) / (1 + drift_ppm * 1e-6);
+    return start_utime + std::llround(elapsed_ns * 1e-3);
+  }
 };
 
 }  // namespace arcstart::cell_simulator

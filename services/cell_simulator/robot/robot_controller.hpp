@@ -1,4 +1,4 @@
-// What the simulated controller reports: the arm's place at an instant as an HSPO packet.
+// What the simulated controller reports: the arm's place at an instant.
 #pragma once
 
 #include <atomic>
@@ -21,6 +21,15 @@ struct RobotControllerSettings {
   std::uint64_t seed = 1;  // of the noise
 };
 
+// What the arm's controller knows at an instant, whatever the protocol that tells it.
+struct RobotReport {
+  std::uint32_t number = 0;     // counts the reports from 0, wraps
+  std::int64_t clock_ns = 0;    // the controller's own clock
+  RigidTransform T_base_tool;   // as measured: with noise
+  RigidTransform T_base_tool0;  // the flange, likewise
+  Joints joints{};              // the model's; rad, zeros where joints_too is false
+};
+
 // Called from one thread, but for unreachable().
 class RobotController {
  public:
@@ -28,8 +37,10 @@ class RobotController {
 
   RobotController(const RobotControllerSettings& settings, Pose pose);
 
-  // The packet of an instant (us, UTC); the first has index 0. clock_back_us is taken off the
-  // controller's clock.
+  // Of an instant (us, UTC). clock_back_us is taken off the controller's clock.
+  RobotReport report(std::int64_t instant, std::int64_t clock_back_us = 0);
+
+  // The report as HSPO's packet; the first has index 0.
   std::vector<std::uint8_t> packet(std::int64_t instant, std::int64_t clock_back_us = 0);
 
   std::int64_t unreachable() const {

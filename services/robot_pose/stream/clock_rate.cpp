@@ -1,4 +1,4 @@
-#include "services/robot_pose/clock_rate.hpp"
+#include "services/robot_pose/stream/clock_rate.hpp"
 
 namespace arcstart::robot_pose {
 namespace {

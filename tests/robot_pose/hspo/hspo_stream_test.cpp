@@ -1,9 +1,9 @@
-#include "services/robot_pose/hspo_stream.hpp"
+#include "services/robot_pose/hspo/hspo_stream.hpp"
 
 #include <catch2/catch.hpp>
 #include <random>
 
-#include "tests/robot_pose/hspo_bytes.hpp"
+#include "tests/robot_pose/hspo/hspo_bytes.hpp"
 
 using namespace arcstart;
 using namespace arcstart::robot_pose;

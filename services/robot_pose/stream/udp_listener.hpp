@@ -32,6 +32,10 @@ class UdpListener {
 
   std::optional<Datagram> poll();
 
+  // From the port listened to. What cannot be sent is lost, as on the way. Throws
+  // std::runtime_error where the address is none.
+  void send(const std::vector<std::uint8_t>& bytes, const std::string& address, int port);
+
   int port() const { return port_; }  // the one given by the kernel where 0 was asked
   std::int64_t overflowed() const { return overflowed_; }  // dropped because nobody polled
 

@@ -1,11 +1,11 @@
-#include "services/robot_pose/hspo_packet.hpp"
+#include "services/robot_pose/hspo/hspo_packet.hpp"
 
 #include <catch2/catch.hpp>
 #include <cmath>
 #include <limits>
 #include <random>
 
-#include "tests/robot_pose/hspo_bytes.hpp"
+#include "tests/robot_pose/hspo/hspo_bytes.hpp"
 
 using namespace arcstart;
 using namespace arcstart::robot_pose;

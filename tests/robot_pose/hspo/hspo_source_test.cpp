@@ -1,5 +1,5 @@
 // The real socket, on 127.0.0.1.
-#include "services/robot_pose/hspo_source.hpp"
+#include "services/robot_pose/hspo/hspo_source.hpp"
 
 #include <arpa/inet.h>
 #include <sys/socket.h>
@@ -11,7 +11,7 @@
 #include <thread>
 
 #include "common/time.hpp"
-#include "tests/robot_pose/hspo_bytes.hpp"
+#include "tests/robot_pose/hspo/hspo_bytes.hpp"
 
 using namespace arcstart;
 using namespace arcstart::robot_pose;
@@ -130,4 +130,11 @@ TEST_CASE("HSPO source: one controller is heard, others are counted") {
   CHECK(source.counts().foreign == (set ? 2 : 1));
   CHECK(source.last_error().find("127.0.0.3 are ignored, the controller is 127.0.0.2") !=
         std::string::npos);
+}
+
+TEST_CASE("HSPO source: a hand fixed in the flange is refused, for HSPO does not tell the flange") {
+  RobotPoseSettings settings = any_port();
+  settings.tool_in_flange = {0, 0, 0, 0, 0, 0};
+  HspoSource source(settings, [] {});
+  CHECK_THROWS_WITH(source.start(), Catch::Contains("robot_pose.tool_in_flange"));
 }

@@ -1,4 +1,4 @@
-#include "services/robot_pose/wpr.hpp"
+#include "services/robot_pose/stream/wpr.hpp"
 
 #include <catch2/catch.hpp>
 #include <cmath>

@@ -1,4 +1,4 @@
-#include "services/robot_pose/udp_listener.hpp"
+#include "services/robot_pose/stream/udp_listener.hpp"
 
 #include <arpa/inet.h>
 #include <fmt/core.h>
@@ -78,6 +78,17 @@ std::optional<Datagram> UdpListener::poll() {
   Datagram datagram = std::move(waiting_.front());
   waiting_.pop_front();
   return datagram;
+}
+
+void UdpListener::send(const std::vector<std::uint8_t>& bytes, const std::string& address,
+                       int port) {
+  sockaddr_in there{};
+  there.sin_family = AF_INET;
+  there.sin_port = htons(static_cast<std::uint16_t>(port));
+  if (inet_pton(AF_INET, address.c_str(), &there.sin_addr) != 1)
+    throw std::runtime_error(address + ": not an IPv4 address");
+  sendto(socket_, bytes.data(), bytes.size(), 0, reinterpret_cast<const sockaddr*>(&there),
+         sizeof there);
 }
 
 void UdpListener::receive() {

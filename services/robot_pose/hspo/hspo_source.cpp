@@ -1,6 +1,8 @@
-#include "services/robot_pose/hspo_source.hpp"
+#include "services/robot_pose/hspo/hspo_source.hpp"
 
 #include <fmt/core.h>
+
+#include <stdexcept>
 
 namespace arcstart::robot_pose {
 namespace {
@@ -14,8 +16,17 @@ HspoSource::HspoSource(const RobotPoseSettings& settings, std::function<void()> 
     : listener_(settings.address, settings.port, std::move(notify)),
       stream_(settings.clock_tick_us, settings.motion_group),
       address_(settings.address),
+      tool_in_flange_is_set_(!settings.tool_in_flange.empty()),
       controller_(settings.controller_address),
       controller_is_set_(!settings.controller_address.empty()) {}
+
+void HspoSource::start() {
+  if (tool_in_flange_is_set_)
+    throw std::runtime_error(
+        "robot_pose.tool_in_flange: HSPO reports the tool centre point and not where it lies in "
+        "the flange: leave this key away, or take protocol j519 or rtde");
+  listener_.start();
+}
 
 std::optional<ReportedPosition> HspoSource::poll() {
   while (const auto datagram = listener_.poll()) {
@@ -36,6 +47,11 @@ PoseSourceCounts HspoSource::counts() const {
 
 std::string HspoSource::description() const {
   return fmt::format("HSPO on UDP {}:{}", address_, listener_.port());
+}
+
+std::string HspoSource::why_silent() const {
+  return "is the controller on, HSPO enabled ($MCGR_CFG.$ENABLE), and its host address and port "
+         "this host's?";
 }
 
 // Two controllers on one port would give positions of two arms in turn: one of them is heard.
