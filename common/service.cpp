@@ -75,6 +75,7 @@ service_status_t make_status(const ServiceContext& context, const ServiceDescrip
   status.last_error = health.last_error;
   if (status.last_error.empty()) status.last_error = bus.last_error();
   if (status.last_error.empty()) status.last_error = bus.buffer_warning();
+  if (status.last_error.empty()) status.last_error = health.notice;
   status.received = bus.received() + health.received;
   status.sent = bus.sent();
   status.lost = health.lost + bus.overflowed();
@@ -104,10 +105,11 @@ void run_loop(ServiceContext& context, const ServiceDescription& description, Ap
       last_loss = steady_now();
     }
     const bool losing = last_loss != 0 && steady_now() - last_loss < kLossIsNews;
-    const bool changed = health.state != told.state || health.last_error != told.last_error;
-    if (changed && !health.last_error.empty()) spdlog::warn(health.last_error);
-    if (changed && health.last_error.empty() && !told.last_error.empty())
-      spdlog::info("well again");
+    const bool changed = health.state != told.state || health.last_error != told.last_error ||
+                         health.notice != told.notice;
+    if (health.last_error != told.last_error && !health.last_error.empty())
+      spdlog::warn(health.last_error);
+    if (health.last_error.empty() && !told.last_error.empty()) spdlog::info("well again");
     if (!changed && steady_now() < next_status) continue;
     context.bus.publish(channel, make_status(context, description, health, losing));
     next_status = steady_now() + 1'000'000;

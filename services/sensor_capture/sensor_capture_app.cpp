@@ -17,6 +17,9 @@ constexpr std::int64_t kPreviewPeriod = 500'000;
 constexpr std::int64_t kScanStatePeriod = 200'000;
 constexpr std::int64_t kErrorIsTold = 10'000'000;
 constexpr std::int64_t kHeldBack = 5'000;  // us that a better known clock may cost
+// us without a repetition, after which the laser goes dark: five of those that the calibration
+// sends.
+constexpr std::int64_t kCommandHolds = 1'000'000;
 
 ScanOwnerSettings owner_settings(const SensorCaptureSettings& settings) {
   return {settings.longest_scan_s,
@@ -59,6 +62,7 @@ void SensorCaptureApp::tick(std::int64_t now) {
     std::visit([&](auto& happened) { take(happened, now); }, *event);
   owner_.tick(now);
   if (command_ && now > command_->latest_utime) end_command("its images took too long");
+  if (is_unattended()) end_command("it lit the laser and was not repeated for 1 s");
   follow_scan(now);
   if (steady_now() > error_until_) error_.clear();
 }
@@ -108,6 +112,7 @@ void SensorCaptureApp::take(const CameraFound& found, std::int64_t now) {
   starting_ = false;
   camera_trouble_.clear();
   wired_laser_ = found.wired_laser;
+  lit_ = found.settings.laser_on;
   clock_.restart();
   timeline_.begin(found.settings);
   owner_.set_shortest_period(found.shortest_period_us);
@@ -126,8 +131,10 @@ void SensorCaptureApp::take(const CameraLost& lost, std::int64_t now) {
 }
 
 void SensorCaptureApp::take(const SettingsApplied& applied, std::int64_t now) {
-  if (applied.error.empty())
+  if (applied.error.empty()) {
+    if (applied.ticket == last_ticket_) lit_ = applied.settings.laser_on;
     return timeline_.applied(applied.ticket, applied.settings, applied.acknowledged_utime);
+  }
   timeline_.refused(applied.ticket);
   if (command_ && command_->ticket == applied.ticket) end_command(applied.error);
   error_ = applied.error;
@@ -147,6 +154,7 @@ void SensorCaptureApp::take_scan_command(const scan_command_t& command) {
 }
 
 void SensorCaptureApp::take_camera_command(const camera_command_t& command) {
+  if (command_ && command_->command_id == command.command_id) command_->heard = steady_now();
   if (std::find(known_commands_.begin(), known_commands_.end(), command.command_id) !=
       known_commands_.end())
     return;
@@ -173,8 +181,12 @@ void SensorCaptureApp::take_camera_command(const camera_command_t& command) {
   if (command.gain_db >= 0) settings.gain_db = command.gain_db;
   settings.laser_on = command.laser == camera_command_t::LASER_ON;
   const std::int64_t now = utime_now();
-  command_ = CommandedImages{command.command_id, settings, last_ticket_ + 1, command.images,
-                             now + seconds_to_us(settings_.longest_scan_s)};
+  command_ = CommandedImages{command.command_id,
+                             settings,
+                             last_ticket_ + 1,
+                             command.images,
+                             now + seconds_to_us(settings_.longest_scan_s),
+                             steady_now()};
   ask_for(settings, now);
 }
 
@@ -182,6 +194,21 @@ void SensorCaptureApp::end_command(const std::string& why) {
   spdlog::warn(fmt::format("camera command {} ends, {} images were not taken: {}",
                            command_->command_id, command_->left, why));
   command_.reset();
+}
+
+// Whoever lit the laser outside a scan is gone.
+bool SensorCaptureApp::is_unattended() const {
+  return command_ && command_->settings.laser_on && steady_now() - command_->heard > kCommandHolds;
+}
+
+std::string SensorCaptureApp::laser_state() const {
+  if (wired_laser_) return "laser on in every exposure: it is wired to the camera";
+  if (!lit_) return "laser off";
+  if (owner_.laser_wanted())
+    return fmt::format("laser on for scan {}", owner_.state().scan.scan_id);
+  if (command_ && command_->settings.laser_on)
+    return fmt::format("laser on for camera command {}", command_->command_id);
+  return "laser goes off";
 }
 
 // Lit in scans, and where a camera command asks for it.
@@ -192,6 +219,7 @@ CameraSettings SensorCaptureApp::wanted_settings() const {
 
 void SensorCaptureApp::ask_for(const CameraSettings& settings, std::int64_t now) {
   asked_ = settings;
+  lit_ |= settings.laser_on;
   timeline_.requested(++last_ticket_, settings, now);
   source_->request(last_ticket_, settings);
 }
@@ -220,6 +248,7 @@ Health SensorCaptureApp::health() const {
   health.received = counts.frames;
   health.lost = counts.incomplete + counts.lost;
   health.last_error = error_;
+  if (found_) health.notice = laser_state();
   if (starting_) {
     health.state = service_status_t::STARTING;
   } else if (!found_) {

@@ -37,6 +37,7 @@ class SensorCaptureApp : public App {
     std::int64_t ticket;  // of the request for these settings
     int left;
     std::int64_t latest_utime;  // by when it is given up
+    std::int64_t heard;         // last; steady, us
   };
 
   void take(Frame& frame, std::int64_t now);
@@ -48,6 +49,8 @@ class SensorCaptureApp : public App {
   void end_command(const std::string& why);
 
   CameraSettings wanted_settings() const;
+  bool is_unattended() const;
+  std::string laser_state() const;
   void ask_for(const CameraSettings& settings, std::int64_t now);
   void follow_scan(std::int64_t now);
   void publish_image(image_t& image, Frame& frame, const Membership& membership,
@@ -65,6 +68,7 @@ class SensorCaptureApp : public App {
 
   bool found_ = false;
   bool wired_laser_ = false;
+  bool lit_ = false;  // asked for and not yet known to be dark
   std::string camera_trouble_ = "the camera has not been found yet";
   bool starting_ = true;
   std::int64_t last_ticket_ = 0;

@@ -30,6 +30,8 @@ std::string text_of(const seam_t& seam) {
   return seam.reason.empty() ? verdict : verdict + ": " + seam.reason;
 }
 
+std::string text_of(const image_t& preview) { return preview.laser_on ? "laser on" : "laser off"; }
+
 std::string text_of(const calibration_t& calibration) { return "id " + calibration.id; }
 
 template <class Message>
@@ -48,6 +50,8 @@ std::string state_of(ChannelKind kind, const std::vector<std::uint8_t>& bytes) {
       return state_text<seam_t>(bytes);
     case ChannelKind::kCalibration:
       return state_text<calibration_t>(bytes);
+    case ChannelKind::kPreview:
+      return state_text<image_t>(bytes);
     default:
       return "";
   }

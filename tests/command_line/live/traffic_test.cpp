@@ -122,6 +122,19 @@ TEST_CASE("states are shown, and nothing unprintable reaches the terminal") {
   CHECK(std::count(table.begin(), table.end(), '\n') == 4);
 }
 
+TEST_CASE("the preview tells whether the laser is on") {
+  Traffic traffic;
+  image_t preview{};
+  preview.utime = preview.run_id = 1;
+  preview.scan_index = -1;
+  preview.incomplete = "only its header matters here";
+  traffic.take("LASER0_PREVIEW", bytes_of(preview), 1);
+  CHECK(line(traffic.json(2, 2), "LASER0_PREVIEW")["state"] == "laser off");
+  preview.laser_on = 1;
+  traffic.take("LASER0_PREVIEW", bytes_of(preview), 2);
+  CHECK(line(traffic.json(2, 2), "LASER0_PREVIEW")["state"] == "laser on");
+}
+
 TEST_CASE("a sender of the version before is named as such") {
   Traffic traffic;
   std::vector<std::uint8_t> former(300, 0);
