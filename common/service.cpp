@@ -1,5 +1,6 @@
 #include "common/service.hpp"
 
+#include <fmt/core.h>
 #include <spdlog/sinks/stdout_sinks.h>
 #include <spdlog/spdlog.h>
 #include <unistd.h>
@@ -20,6 +21,7 @@ namespace arcstart {
 namespace {
 
 constexpr std::int64_t kLossIsNews = 10'000'000;  // us: so long after a loss the state is DEGRADED
+constexpr std::int64_t kStillThere = 3'000'000;   // us since its last STATUS, which comes at 1 Hz
 
 volatile std::sig_atomic_t end_asked = 0;
 void ask_for_end(int) { end_asked = 1; }
@@ -62,8 +64,34 @@ std::string host_name() {
   return name;
 }
 
+// Another process that does this one's work: heard on this one's own STATUS channel.
+class Twin {
+ public:
+  Twin(ServiceContext& context, const std::string& channel, const ServiceDescription& description)
+      : what_(description.name), run_id_(context.run_id) {
+    context.bus.subscribe<service_status_t>(
+        channel, Queue::measurements(), [this](const service_status_t& status) {
+          const bool is_own =
+              status.run_id == run_id_ && status.pid == getpid() && status.host == host_;
+          if (is_own || status.state == service_status_t::STOPPING) return;
+          heard_ = steady_now();
+          where_ = fmt::format("host {}, pid {}", status.host, status.pid);
+        });
+  }
+  // Empty where there is none.
+  std::string trouble() const {
+    if (heard_ == 0 || steady_now() - heard_ > kStillThere) return "";
+    return fmt::format("another {} does the same work: {}; this one is host {}, pid {}: end one",
+                       what_, where_, host_, getpid());
+  }
+
+ private:
+  std::string what_, host_ = host_name(), where_;
+  std::int64_t run_id_, heard_ = 0;
+};
+
 service_status_t make_status(const ServiceContext& context, const ServiceDescription& description,
-                             const Health& health, bool losing) {
+                             const Health& health, const std::string& second, bool losing) {
   const Bus& bus = context.bus;
   service_status_t status{};
   status.utime = utime_now();
@@ -73,6 +101,7 @@ service_status_t make_status(const ServiceContext& context, const ServiceDescrip
   status.run_id = context.run_id;
   status.state = health.state;
   status.last_error = health.last_error;
+  if (!second.empty() && health.state != service_status_t::FAULT) status.last_error = second;
   if (status.last_error.empty()) status.last_error = bus.last_error();
   if (status.last_error.empty()) status.last_error = bus.buffer_warning();
   if (status.last_error.empty()) status.last_error = health.notice;
@@ -80,7 +109,8 @@ service_status_t make_status(const ServiceContext& context, const ServiceDescrip
   status.sent = bus.sent();
   status.lost = health.lost + bus.overflowed();
   status.undecodable = bus.undecodable() + health.undecodable;
-  if (status.state == service_status_t::RUNNING && (losing || !bus.buffer_warning().empty()))
+  if (status.state == service_status_t::RUNNING &&
+      (losing || !second.empty() || !bus.buffer_warning().empty()))
     status.state = service_status_t::DEGRADED;
   status.oldest_age = health.oldest_age;
   read_memory(status.memory, status.peak_memory);
@@ -91,6 +121,8 @@ service_status_t make_status(const ServiceContext& context, const ServiceDescrip
 
 void run_loop(ServiceContext& context, const ServiceDescription& description, App& app) {
   const std::string channel = status_channel(context.instance, description);
+  const Twin twin(context, channel, description);
+  std::string told_second;
   std::int64_t next_status = 0, lost = 0, last_loss = 0;
   Health told;
   notify_systemd("READY=1");
@@ -105,19 +137,23 @@ void run_loop(ServiceContext& context, const ServiceDescription& description, Ap
       last_loss = steady_now();
     }
     const bool losing = last_loss != 0 && steady_now() - last_loss < kLossIsNews;
-    const bool changed = health.state != told.state || health.last_error != told.last_error ||
-                         health.notice != told.notice;
+    std::string second = twin.trouble();
+    if (second.empty()) second = context.bus.dispute();
+    if (second != told_second && !second.empty()) spdlog::warn("{}", second);
+    const bool changed = second != told_second || health.state != told.state ||
+                         health.last_error != told.last_error || health.notice != told.notice;
     if (health.last_error != told.last_error && !health.last_error.empty())
       spdlog::warn(health.last_error);
     if (health.last_error.empty() && !told.last_error.empty()) spdlog::info("well again");
     if (!changed && steady_now() < next_status) continue;
-    context.bus.publish(channel, make_status(context, description, health, losing));
+    context.bus.publish(channel, make_status(context, description, health, second, losing));
     next_status = steady_now() + 1'000'000;
     told = health;
+    told_second = second;
   }
   Health last = app.health();
   last.state = service_status_t::STOPPING;
-  context.bus.publish(channel, make_status(context, description, last, false));
+  context.bus.publish(channel, make_status(context, description, last, "", false));
   notify_systemd("STOPPING=1");
 }
 

@@ -117,9 +117,14 @@ void ReconstructionApp::take_position(const robot_pose_t& message) {
   const auto dropped = [&] { return trajectory.dropped_going_back() + trajectory.dropped_jumps(); };
   const std::int64_t dropped_before = dropped();
   position_error_ = message.invalid;
+  // Of two senders the first message of the other looks like that of one that was started again.
+  const std::int64_t run_before = std::exchange(position_run_, message.run_id);
+  const bool other_run = run_before != 0 && run_before != message.run_id;
+  const bool disputed = !bus_.dispute(instance_.robot_channel("POSE")).empty();
   if (message.invalid.empty()) {
     reconstruction_.take_position(message.utime,
-                                  transform_from_arrays(message.position, message.quaternion));
+                                  transform_from_arrays(message.position, message.quaternion),
+                                  disputed || other_run);
     if (dropped() != dropped_before) position_error_ = "its stamp jumps or goes back";
   }
   publish_profiles();

@@ -167,6 +167,56 @@ TEST_CASE("a restarted sensor_capture ends the scan with the same refusal, in an
   }
 }
 
+TEST_CASE("two profiles of one seq that differ refuse the scan, equal ones do not") {
+  for (const bool differ : {false, true}) {
+    ScanCollector collector;
+    const ScanMessages messages = scan_of(10);
+    profile_t other = messages.profiles[4];
+    if (differ) other.tool_position[0] += 30;
+    collector.take(messages.scanning);
+    for (const auto& profile : messages.profiles) {
+      if (profile.seq == other.seq) collector.take(other);
+      collector.take(profile);
+    }
+    collector.take(messages.ended);
+    const auto scan = collector.next();
+    REQUIRE(scan);
+    CHECK(scan->refusal.code == (differ ? seam_t::TWO_SENDERS : 0));
+    CHECK(scan->profiles.size() == (differ ? 0 : 10));
+    CHECK(scan->profiles_lost == 0);
+  }
+}
+
+TEST_CASE("two sensor_captures refuse each other's scans, and the next is heard when one is gone") {
+  ScanCollector collector;
+  const ScanMessages messages = scan_of(6);
+  scan_t other = idle_state(messages.scanning.run_id + GENERATE(-1, 1) * kOneSecond);
+  collector.take(messages.scanning);
+  for (const auto& profile : messages.profiles) collector.take(profile);
+  collector.take(other);
+  CHECK_FALSE(collector.next());
+  scan_t scanning = messages.scanning;
+  scanning.utime += 200'000;
+  collector.take(scanning);
+  const auto scan = collector.next();
+  REQUIRE(scan);
+  CHECK(scan->refusal.code == seam_t::TWO_SENDERS);
+  CHECK(scan->state.scan_id == messages.scanning.scan_id);
+
+  scan_t idle = idle_state(messages.scanning.run_id);
+  for (int i = 0; i < 10; ++i) {
+    idle.utime += 200'000;
+    collector.take(idle);
+  }
+  const ScanMessages next = scan_of(6, {.scan_id = messages.scanning.scan_id + 60 * kOneSecond});
+  collector.take(next.scanning);
+  for (const auto& profile : next.profiles) collector.take(profile);
+  collector.take(next.ended);
+  const auto answered = collector.next();
+  REQUIRE(answered);
+  CHECK(answered->refusal.empty());
+}
+
 TEST_CASE("a scan that had ended before the restart is answered when its profiles come") {
   ScanCollector collector;
   const ScanMessages messages = scan_of(4);
