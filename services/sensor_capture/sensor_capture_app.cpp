@@ -37,6 +37,7 @@ SensorCaptureApp::SensorCaptureApp(Bus& bus, const SensorCaptureSettings& settin
       instance_(instance),
       run_id_(run_id),
       source_(std::move(source)),
+      probes_(bus, instance.robot, run_id),
       timeline_(static_cast<std::int64_t>(settings.settle_margin_ms * 1000),
                 settings.frames_to_settle),
       owner_(owner_settings(settings)) {
@@ -65,6 +66,7 @@ void SensorCaptureApp::tick(std::int64_t now) {
   if (is_unattended()) end_command("it lit the laser and was not repeated for 1 s");
   follow_scan(now);
   if (steady_now() > error_until_) error_.clear();
+  probes_.tick();
 }
 
 // The laser and the clock's mapping follow the scan; its state is told at once when it changes.
@@ -237,6 +239,7 @@ void SensorCaptureApp::publish_scan(std::int64_t now) {
   scan_t message = make_scan_message(owner_.state());
   message.utime = now;
   message.run_id = run_id_;
+  probes_.fill_in(message);
   bus_.publish(instance_.sensor_channel("SCAN"), message);
   told_revision_ = owner_.revision();
   next_scan_state_ = steady_now() + kScanStatePeriod;
@@ -247,14 +250,14 @@ Health SensorCaptureApp::health() const {
   const SourceCounts counts = source_->counts();
   health.received = counts.frames;
   health.lost = counts.incomplete + counts.lost;
-  health.last_error = error_;
+  health.last_error = error_.empty() ? probes_.trouble() : error_;
   if (found_) health.notice = laser_state();
   if (starting_) {
     health.state = service_status_t::STARTING;
   } else if (!found_) {
     health.state = service_status_t::FAULT;
     health.last_error = camera_trouble_;
-  } else if (!error_.empty()) {
+  } else if (!health.last_error.empty()) {
     health.state = service_status_t::DEGRADED;
   }
   return health;

@@ -13,6 +13,7 @@
 
 #include "common/clock_mapping.hpp"
 #include "common/service.hpp"
+#include "services/sensor_capture/clock_probes.hpp"
 #include "services/sensor_capture/frames/frame_source.hpp"
 #include "services/sensor_capture/frames/settings_timeline.hpp"
 #include "services/sensor_capture/scan/scan_owner.hpp"
@@ -63,6 +64,7 @@ class SensorCaptureApp : public App {
   std::int64_t run_id_;
   std::unique_ptr<FrameSource> source_;
   ClockMapping clock_;
+  ClockProbes probes_;
   SettingsTimeline timeline_;
   ScanOwner owner_;
 
