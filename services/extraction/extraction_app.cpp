@@ -23,6 +23,9 @@ static_assert(static_cast<int>(EmptyStripe::kUnknownEncoding) == stripe_t::UNKNO
 
 namespace {
 
+// Of a scan: 20 minutes at 14 Hz. A number beyond is damage or a stranger's, and says nothing.
+constexpr std::int64_t kMostLost = 20'000;
+
 cv::Mat view(const GreyImage& grey) {
   return {grey.height, grey.width, CV_8U, const_cast<std::uint8_t*>(grey.data),
           static_cast<std::size_t>(grey.stride)};
@@ -60,7 +63,7 @@ void ExtractionApp::count_lost(const image_t& image) {
   // What this process itself has not taken in it can name.
   const std::int64_t dropped = bus_.undecodable() + bus_.overflowed();
   const bool dropped_here = dropped > std::exchange(dropped_, dropped);
-  if (lost <= 0) return;
+  if (lost <= 0 || lost > kMostLost) return;
   health_.lost += lost;
   health_.last_error =
       fmt::format("{} images lost before seq {}: {}", lost, image.seq,

@@ -192,12 +192,12 @@ Health ReconstructionApp::health() const {
 // Groups are scans, or runs: a new one begins anew.
 std::int64_t ReconstructionApp::Numbering::missing_before(std::int64_t new_group,
                                                           std::int64_t number) {
-  constexpr std::int64_t kMost = 1'000'000;  // a wild number must not drown the true ones
+  constexpr std::int64_t kMost = 100'000;  // 7 minutes of positions: a wild number says nothing
   const bool follows = new_group == group && last >= 0 && number > last;
-  const std::int64_t missing = follows ? std::min(number - last - 1, kMost) : 0;
+  const std::int64_t missing = follows ? number - last - 1 : 0;
   group = new_group;
   last = number;
-  return missing;
+  return missing <= kMost ? missing : 0;
 }
 
 }  // namespace arcstart::reconstruction

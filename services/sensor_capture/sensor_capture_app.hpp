@@ -56,6 +56,7 @@ class SensorCaptureApp : public App {
   void follow_scan(std::int64_t now);
   void publish_image(image_t& image, Frame& frame, const Membership& membership,
                      std::int64_t command_id);
+  void publish_end(image_t image);
   void publish_scan(std::int64_t now);
 
   Bus& bus_;
@@ -77,6 +78,9 @@ class SensorCaptureApp : public App {
   std::optional<CameraSettings> asked_;  // last; nothing where it is not known
   std::optional<CommandedImages> command_;
   std::deque<std::int64_t> known_commands_;
+
+  image_t newest_image_{};  // without its bytes
+  int ends_left_ = 0;       // to be sent of the scan that runs, or has ended last
 
   std::int64_t next_preview_ = 0, next_scan_state_ = 0;  // steady; us
   std::int64_t told_revision_ = -1;

@@ -216,6 +216,13 @@ TEST_CASE("gaps in a scan's sequence are counted as lost, what lies between scan
   late.scan_index = 3;
   cell.answer(late);
   CHECK(cell.health().lost == 5);
+  // A wild number adds nothing, nor does the true one after it.
+  image_t wild = late;
+  wild.seq = 1'000'000'000'000;
+  cell.answer(wild);
+  late.seq = 701;
+  cell.answer(late);
+  CHECK(cell.health().lost == 5);
 }
 
 TEST_CASE("an image whose bytes were damaged on the way is lost, and that is what is said") {
@@ -244,12 +251,13 @@ TEST_CASE("an image of another sensor than the calibration's is refused before i
   put_checksum(huge);
   CHECK(cell.answer(huge).empty == "not a PNG");  // no calibration is known: it was looked at
   cell.calibrate(1600, 1200);
+  ++huge.seq;
   const stripe_t refused = cell.answer(huge);
   CHECK(refused.why == stripe_t::UNREADABLE_IMAGE);
   CHECK_THAT(refused.empty, Catch::Contains("20000 x 20000") && Catch::Contains("1600 x 1200"));
-  CHECK(cell.answer(Cell::image(picture(), 1)).empty.empty());
+  CHECK(cell.answer(Cell::image(picture(), 2)).empty.empty());
   cell.calibrate(1600, 1201);
-  CHECK(cell.answer(Cell::image(picture(), 2)).why == stripe_t::UNREADABLE_IMAGE);
+  CHECK(cell.answer(Cell::image(picture(), 3)).why == stripe_t::UNREADABLE_IMAGE);
 }
 
 TEST_CASE("where the laser is on and off by turns, the image before is subtracted") {

@@ -143,6 +143,12 @@ TEST_CASE("what is lost, invalid or silent is told") {
   CHECK(chain.app.health().lost == 6);
   CHECK(chain.app.health().last_error.find("jumps or goes back") != std::string::npos);
 
+  robot_pose_t wild = pose_at(340'001);
+  wild.seq = 1'000'000'000'000;
+  chain.send("ROBOT0_POSE", wild);
+  chain.positions(360'000, 360'000);
+  CHECK(chain.app.health().lost == 6);
+
   chain.stripe(stripe_at(900'000, 1, 43).message);
   std::this_thread::sleep_for(std::chrono::milliseconds(150));
   const Health health = chain.app.health();

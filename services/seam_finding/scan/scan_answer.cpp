@@ -146,15 +146,18 @@ StoredBackground::StoredBackground(const CollectedScan& scan, const SeamFindingS
 ScanRefusal background_error(const CollectedScan& scan) {
   if (!scan.refusal.empty()) return scan.refusal;
   const ScanBalance balance = balance_of(scan);
-  if (balance.stripes == 0) return refuse_scan(seam_t::BACKGROUND_EMPTY);
   if (calibration_changed(scan)) return refuse_scan(seam_t::CALIBRATION_CHANGED);
   if (const ScanRefusal refusal = clock_refusal(scan); !refusal.empty()) return refusal;
   if (scan.state.end_cause == scan_t::CAMERA_LOST) return refuse_scan(seam_t::CAMERA_LOST);
   const ScanCloud cloud = cloud_of(scan);
   const int missing = missing_of(cloud);
+  if (scan.profiles.empty() && scan.state.images > 0)
+    return refuse_missing(balance, scan.state.images, scan.state.images, seam_t::BACKGROUND_OVERLIT,
+                          seam_t::BACKGROUND_INCOMPLETE);
   if (20 * missing > static_cast<int>(cloud.stripes.size()) || two_missing_in_a_row(cloud))
     return refuse_missing(balance, missing, cloud.stripes.size(), seam_t::BACKGROUND_OVERLIT,
                           seam_t::BACKGROUND_INCOMPLETE);
+  if (balance.stripes == 0) return refuse_scan(seam_t::BACKGROUND_EMPTY);
   return {};
 }
 

@@ -121,6 +121,28 @@ TEST_CASE("no order between the channels makes a difference") {
   }
 }
 
+TEST_CASE("what is lost at a scan's end, or all of it, is counted when its end comes by") {
+  // As sensor_capture sends it after the last image, and the chain carries it on.
+  const ScanMessages messages = scan_of(10);
+  profile_t end = messages.profiles.back();
+  end.scan_id = 0;
+  end.scan_index = -1;
+  ++end.seq;
+  for (const std::size_t lost : {std::size_t{1}, std::size_t{10}}) {
+    ScanCollector collector;
+    collector.take(messages.scanning);
+    for (std::size_t i = 0; i + lost < 10; ++i) collector.take(messages.profiles[i]);
+    collector.take(messages.ended);
+    CHECK_FALSE(collector.next());
+    collector.take(end);
+    const auto scan = collector.next();
+    REQUIRE(scan);
+    CHECK(scan->refusal.empty());
+    CHECK(scan->profiles_lost == static_cast<int>(lost));
+    CHECK(collector.lost() == static_cast<std::int64_t>(lost));
+  }
+}
+
 TEST_CASE("a scan is given once, however often its end is told") {
   ScanCollector collector;
   const ScanMessages messages = scan_of(5);
