@@ -1,12 +1,18 @@
 #include "common/service.hpp"
 
+#include <arpa/inet.h>
 #include <fmt/core.h>
+#include <netinet/in.h>
 #include <spdlog/sinks/stdout_sinks.h>
 #include <spdlog/spdlog.h>
+#include <sys/socket.h>
+#include <sys/un.h>
 #include <unistd.h>
 
 #include <algorithm>
+#include <cerrno>
 #include <csignal>
+#include <cstddef>
 #include <cstdlib>
 #include <filesystem>
 #include <fstream>
@@ -89,6 +95,51 @@ class Twin {
   std::string what_, host_ = host_name(), where_;
   std::int64_t run_id_, heard_ = 0;
 };
+
+// Held as long as the process lives, whatever ends it. An abstract socket's name belongs to the
+// host's network, as the bus does.
+void claim_role(const Instance& instance, const ServiceDescription& description,
+                const BusSettings& bus) {
+  sockaddr_un name{};
+  name.sun_family = AF_UNIX;
+  const std::string text =
+      fmt::format("arcstart/{}/{}:{}", status_channel(instance, description), bus.group, bus.port);
+  const std::size_t length = std::min(text.size(), sizeof name.sun_path - 1);
+  text.copy(name.sun_path + 1, length);
+  const int role = socket(AF_UNIX, SOCK_DGRAM | SOCK_CLOEXEC, 0);
+  if (bind(role, reinterpret_cast<const sockaddr*>(&name),
+           static_cast<socklen_t>(offsetof(sockaddr_un, sun_path) + 1 + length)) != 0 &&
+      errno == EADDRINUSE)
+    throw InputError(
+        fmt::format("{} runs on this host already, for {} on {}:{}: end it first", description.name,
+                    description.of_robot ? instance.robot : instance.sensor, bus.group, bus.port));
+}
+
+// What the kernel says of the way to the group; LCM's own answer would fill a page.
+bool has_route(const BusSettings& settings) {
+  sockaddr_in group{};
+  group.sin_family = AF_INET;
+  group.sin_port = htons(static_cast<std::uint16_t>(settings.port));
+  if (inet_pton(AF_INET, settings.group.c_str(), &group.sin_addr) != 1) return true;  // LCM tells
+  const int probe = socket(AF_INET, SOCK_DGRAM | SOCK_CLOEXEC, 0);
+  const bool reached =
+      connect(probe, reinterpret_cast<const sockaddr*>(&group), sizeof group) == 0 ||
+      errno != ENETUNREACH;
+  close(probe);
+  return reached;
+}
+
+// A network that is not there yet, as after boot, is waited for. False where the end was asked for
+// meanwhile.
+bool wait_for_route(const BusSettings& settings) {
+  if (has_route(settings)) return true;
+  spdlog::warn(
+      "there is no route for multicast to {} yet (ip route add 224.0.0.0/4 dev INTERFACE): it is "
+      "waited for",
+      settings.group);
+  while (!end_asked && !has_route(settings)) usleep(200'000);
+  return !end_asked;
+}
 
 service_status_t make_status(const ServiceContext& context, const ServiceDescription& description,
                              const Health& health, const std::string& second, bool losing) {
@@ -192,7 +243,10 @@ int run_service(int argc, char** argv, const ServiceDescription& description,
     const Configuration configuration =
         cell.empty() ? Configuration() : Configuration::from_file(cell);
     open_state_folder(instance.state_folder);
-    Bus bus(configuration.read<BusSettings>("bus"));
+    const auto bus_settings = configuration.read<BusSettings>("bus");
+    claim_role(instance, description, bus_settings);
+    if (!wait_for_route(bus_settings)) return 0;
+    Bus bus(bus_settings);
     if (!bus.buffer_warning().empty()) spdlog::warn(bus.buffer_warning());
     ServiceContext context{bus, configuration, instance, utime_now(), {}};
     const std::unique_ptr<App> app = make_app(context);
