@@ -1,11 +1,18 @@
 #include "common/service.hpp"
 
+#include <arpa/inet.h>
+#include <fmt/core.h>
+#include <netinet/in.h>
 #include <spdlog/sinks/stdout_sinks.h>
 #include <spdlog/spdlog.h>
+#include <sys/socket.h>
+#include <sys/un.h>
 #include <unistd.h>
 
 #include <algorithm>
+#include <cerrno>
 #include <csignal>
+#include <cstddef>
 #include <cstdlib>
 #include <filesystem>
 #include <fstream>
@@ -20,6 +27,7 @@ namespace arcstart {
 namespace {
 
 constexpr std::int64_t kLossIsNews = 10'000'000;  // us: so long after a loss the state is DEGRADED
+constexpr std::int64_t kStillThere = 3'000'000;   // us since its last STATUS, which comes at 1 Hz
 
 volatile std::sig_atomic_t end_asked = 0;
 void ask_for_end(int) { end_asked = 1; }
@@ -62,8 +70,79 @@ std::string host_name() {
   return name;
 }
 
+// Another process that does this one's work: heard on this one's own STATUS channel.
+class Twin {
+ public:
+  Twin(ServiceContext& context, const std::string& channel, const ServiceDescription& description)
+      : what_(description.name), run_id_(context.run_id) {
+    context.bus.subscribe<service_status_t>(
+        channel, Queue::measurements(), [this](const service_status_t& status) {
+          const bool is_own =
+              status.run_id == run_id_ && status.pid == getpid() && status.host == host_;
+          if (is_own || status.state == service_status_t::STOPPING) return;
+          heard_ = steady_now();
+          where_ = fmt::format("host {}, pid {}", status.host, status.pid);
+        });
+  }
+  // Empty where there is none.
+  std::string trouble() const {
+    if (heard_ == 0 || steady_now() - heard_ > kStillThere) return "";
+    return fmt::format("another {} does the same work: {}; this one is host {}, pid {}: end one",
+                       what_, where_, host_, getpid());
+  }
+
+ private:
+  std::string what_, host_ = host_name(), where_;
+  std::int64_t run_id_, heard_ = 0;
+};
+
+// Held as long as the process lives, whatever ends it. An abstract socket's name belongs to the
+// host's network, as the bus does.
+void claim_role(const Instance& instance, const ServiceDescription& description,
+                const BusSettings& bus) {
+  sockaddr_un name{};
+  name.sun_family = AF_UNIX;
+  const std::string text =
+      fmt::format("arcstart/{}/{}:{}", status_channel(instance, description), bus.group, bus.port);
+  const std::size_t length = std::min(text.size(), sizeof name.sun_path - 1);
+  text.copy(name.sun_path + 1, length);
+  const int role = socket(AF_UNIX, SOCK_DGRAM | SOCK_CLOEXEC, 0);
+  if (bind(role, reinterpret_cast<const sockaddr*>(&name),
+           static_cast<socklen_t>(offsetof(sockaddr_un, sun_path) + 1 + length)) != 0 &&
+      errno == EADDRINUSE)
+    throw InputError(
+        fmt::format("{} runs on this host already, for {} on {}:{}: end it first", description.name,
+                    description.of_robot ? instance.robot : instance.sensor, bus.group, bus.port));
+}
+
+// What the kernel says of the way to the group; LCM's own answer would fill a page.
+bool has_route(const BusSettings& settings) {
+  sockaddr_in group{};
+  group.sin_family = AF_INET;
+  group.sin_port = htons(static_cast<std::uint16_t>(settings.port));
+  if (inet_pton(AF_INET, settings.group.c_str(), &group.sin_addr) != 1) return true;  // LCM tells
+  const int probe = socket(AF_INET, SOCK_DGRAM | SOCK_CLOEXEC, 0);
+  const bool reached =
+      connect(probe, reinterpret_cast<const sockaddr*>(&group), sizeof group) == 0 ||
+      errno != ENETUNREACH;
+  close(probe);
+  return reached;
+}
+
+// A network that is not there yet, as after boot, is waited for. False where the end was asked for
+// meanwhile.
+bool wait_for_route(const BusSettings& settings) {
+  if (has_route(settings)) return true;
+  spdlog::warn(
+      "there is no route for multicast to {} yet (ip route add 224.0.0.0/4 dev INTERFACE): it is "
+      "waited for",
+      settings.group);
+  while (!end_asked && !has_route(settings)) usleep(200'000);
+  return !end_asked;
+}
+
 service_status_t make_status(const ServiceContext& context, const ServiceDescription& description,
-                             const Health& health, bool losing) {
+                             const Health& health, const std::string& second, bool losing) {
   const Bus& bus = context.bus;
   service_status_t status{};
   status.utime = utime_now();
@@ -73,13 +152,16 @@ service_status_t make_status(const ServiceContext& context, const ServiceDescrip
   status.run_id = context.run_id;
   status.state = health.state;
   status.last_error = health.last_error;
+  if (!second.empty() && health.state != service_status_t::FAULT) status.last_error = second;
   if (status.last_error.empty()) status.last_error = bus.last_error();
   if (status.last_error.empty()) status.last_error = bus.buffer_warning();
+  if (status.last_error.empty()) status.last_error = health.notice;
   status.received = bus.received() + health.received;
   status.sent = bus.sent();
   status.lost = health.lost + bus.overflowed();
   status.undecodable = bus.undecodable() + health.undecodable;
-  if (status.state == service_status_t::RUNNING && (losing || !bus.buffer_warning().empty()))
+  if (status.state == service_status_t::RUNNING &&
+      (losing || !second.empty() || !bus.buffer_warning().empty()))
     status.state = service_status_t::DEGRADED;
   status.oldest_age = health.oldest_age;
   read_memory(status.memory, status.peak_memory);
@@ -90,6 +172,8 @@ service_status_t make_status(const ServiceContext& context, const ServiceDescrip
 
 void run_loop(ServiceContext& context, const ServiceDescription& description, App& app) {
   const std::string channel = status_channel(context.instance, description);
+  const Twin twin(context, channel, description);
+  std::string told_second;
   std::int64_t next_status = 0, lost = 0, last_loss = 0;
   Health told;
   notify_systemd("READY=1");
@@ -104,18 +188,23 @@ void run_loop(ServiceContext& context, const ServiceDescription& description, Ap
       last_loss = steady_now();
     }
     const bool losing = last_loss != 0 && steady_now() - last_loss < kLossIsNews;
-    const bool changed = health.state != told.state || health.last_error != told.last_error;
-    if (changed && !health.last_error.empty()) spdlog::warn(health.last_error);
-    if (changed && health.last_error.empty() && !told.last_error.empty())
-      spdlog::info("well again");
+    std::string second = twin.trouble();
+    if (second.empty()) second = context.bus.dispute();
+    if (second != told_second && !second.empty()) spdlog::warn("{}", second);
+    const bool changed = second != told_second || health.state != told.state ||
+                         health.last_error != told.last_error || health.notice != told.notice;
+    if (health.last_error != told.last_error && !health.last_error.empty())
+      spdlog::warn(health.last_error);
+    if (health.last_error.empty() && !told.last_error.empty()) spdlog::info("well again");
     if (!changed && steady_now() < next_status) continue;
-    context.bus.publish(channel, make_status(context, description, health, losing));
+    context.bus.publish(channel, make_status(context, description, health, second, losing));
     next_status = steady_now() + 1'000'000;
     told = health;
+    told_second = second;
   }
   Health last = app.health();
   last.state = service_status_t::STOPPING;
-  context.bus.publish(channel, make_status(context, description, last, false));
+  context.bus.publish(channel, make_status(context, description, last, "", false));
   notify_systemd("STOPPING=1");
 }
 
@@ -154,7 +243,10 @@ int run_service(int argc, char** argv, const ServiceDescription& description,
     const Configuration configuration =
         cell.empty() ? Configuration() : Configuration::from_file(cell);
     open_state_folder(instance.state_folder);
-    Bus bus(configuration.read<BusSettings>("bus"));
+    const auto bus_settings = configuration.read<BusSettings>("bus");
+    claim_role(instance, description, bus_settings);
+    if (!wait_for_route(bus_settings)) return 0;
+    Bus bus(bus_settings);
     if (!bus.buffer_warning().empty()) spdlog::warn(bus.buffer_warning());
     ServiceContext context{bus, configuration, instance, utime_now(), {}};
     const std::unique_ptr<App> app = make_app(context);

@@ -25,6 +25,7 @@ struct Instance {
 struct Health {
   std::int8_t state = service_status_t::RUNNING;
   std::string last_error;        // what, where and what to do; empty for nothing
+  std::string notice;            // stands there in STATUS where there is no error: a lit laser
   std::int64_t lost = 0;         // inputs that should have come and did not
   std::int64_t oldest_age = 0;   // of an input that still waits; us
   std::int64_t received = 0;     // inputs from a device, beside the bus's messages

@@ -203,6 +203,22 @@ void Bus::publish_bytes(const std::string& channel, const Bytes& bytes) {
   last_error_ = channel + ": the network took no message: is there still a route for multicast?";
 }
 
+SenderWatch& Bus::watch_senders(const std::string& channel) {
+  return senders_.emplace_back(channel, SenderWatch()).second;
+}
+
+std::string Bus::dispute(const std::string& channel) const {
+  for (const auto& [name, senders] : senders_)
+    if (name == channel && !senders.dispute().empty()) return senders.dispute();
+  return "";
+}
+
+std::string Bus::dispute() const {
+  for (const auto& [name, senders] : senders_)
+    if (!senders.dispute().empty()) return name + ": " + senders.dispute();
+  return "";
+}
+
 void Bus::note_undecodable(const std::string& channel, const Bytes& bytes, const std::string& why) {
   ++undecodable_;
   const std::lock_guard lock(mutex_);

@@ -5,6 +5,7 @@
 // crosses LCM's C code.
 #pragma once
 
+#include <algorithm>
 #include <atomic>
 #include <chrono>
 #include <condition_variable>
@@ -16,12 +17,16 @@
 #include <mutex>
 #include <optional>
 #include <set>
+#include <span>
 #include <string>
 #include <thread>
+#include <type_traits>
+#include <utility>
 #include <vector>
 
 #include "common/bus/former_types.hpp"
 #include "common/bus/message_checks.hpp"
+#include "common/bus/sender_watch.hpp"
 #include "common/configuration.hpp"
 #include "common/input_error.hpp"
 
@@ -74,14 +79,17 @@ class Bus {
   Bus& operator=(const Bus&) = delete;
 
   // The handler gets every message of the channel that decodes to its last byte and has a meaning
-  // (message_checks.hpp); what does not is counted and named in last_error(). Subscribe before the
-  // first handle().
+  // (message_checks.hpp); what does not is counted and named in last_error(). A measurement that
+  // comes a second time, byte for byte, is left out. Subscribe before the first handle().
   template <class Message>
   void subscribe(const std::string& channel, Queue queue,
                  std::function<void(const Message&)> handler) {
+    constexpr bool is_measurement = requires(Message m) { m.run_id, m.seq; };
+    SenderWatch* const senders = is_measurement ? &watch_senders(channel) : nullptr;
     subscribe_bytes(
         channel, queue,
-        [this, channel, handler = std::move(handler)](const Bytes& bytes, const std::string&) {
+        [this, channel, senders, handler = std::move(handler)](const Bytes& bytes,
+                                                               const std::string&) {
           Message message{};  // fresh: lcm-gen leaves old elements in a vector whose count is 0
           const int size = static_cast<int>(bytes.size());
           std::string error;
@@ -90,6 +98,15 @@ class Bus {
           else
             error = meaning_error(message);
           if (!error.empty()) return note_undecodable(channel, bytes, error);
+          if constexpr (is_measurement) {
+            // An image's own bytes are spoken for by their checksum, which stands before them.
+            const std::size_t looked_at = std::min(bytes.size(), kHead);
+            if (senders->is_repeated(
+                    message.run_id, message.seq,
+                    std::span(bytes).first(std::is_same_v<Message, image_t> ? looked_at
+                                                                            : bytes.size())))
+              return;
+          }
           ++received_;
           handler(message);
         });
@@ -122,6 +139,10 @@ class Bus {
   std::int64_t undecodable() const { return undecodable_; }
   std::int64_t overflowed() const { return overflowed_; }  // fell over a full queue
   std::string last_error() const;                          // of what was not taken in or not sent
+  // Why the measurements of a subscribed channel cannot be trusted now: two senders. Empty where
+  // there is one. Without a channel: of the first channel of which that is so, with its name.
+  std::string dispute(const std::string& channel) const;
+  std::string dispute() const;
   // For the log, each once: a channel on which messages of the version before come.
   std::optional<std::string> next_warning();
   std::string buffer_warning() const {
@@ -138,6 +159,7 @@ class Bus {
   Transport& transport_of(const std::string& channel);
   void take_in(Subscription& subscription, const lcm::ReceiveBuffer& buffer,
                const std::string& channel);
+  SenderWatch& watch_senders(const std::string& channel);
   void note_undecodable(const std::string& channel, const Bytes& bytes, const std::string& why);
   bool dispatch_one();
 
@@ -149,6 +171,9 @@ class Bus {
   std::vector<std::unique_ptr<Subscription>> subscriptions_;
   std::vector<std::unique_ptr<Transport>> transports_;
   std::string buffer_warning_;
+
+  static constexpr std::size_t kHead = 512;  // bytes; an image's fields before its bytes take 200
+  std::deque<std::pair<std::string, SenderWatch>> senders_;  // one a subscription
 
   mutable std::mutex mutex_;
   std::condition_variable arrived_;

@@ -250,6 +250,18 @@ std::string meaning_error(const cell_command_t& m) {
   return checks.error();
 }
 
+std::string meaning_error(const clock_probe_t& m) {
+  Checks checks;
+  checks.require(!m.robot.empty(), "no robot named")
+      .require(is_time(m.asker_run_id) && is_time(m.asked_utime) && m.seq >= 0,
+               "asker_run_id or asked_utime is no time, or seq below 0")
+      .require(m.answerer_run_id == 0 ||
+                   (is_time(m.answerer_run_id) && is_time(m.heard_utime) &&
+                    is_time(m.answered_utime) && m.answered_utime >= m.heard_utime),
+               "an answer whose stamps are no times, or that was sent before it was asked");
+  return checks.error();
+}
+
 std::string meaning_error(const truth_t& m) {
   Checks checks;
   checks.require(m.utime > 0, "utime below 0")

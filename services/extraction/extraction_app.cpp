@@ -1,7 +1,8 @@
 #include "services/extraction/extraction_app.hpp"
 
 #include <fmt/core.h>
-#include <spdlog/spdlog.h>
+
+#include <utility>
 
 #include "services/extraction/files/image_decoding.hpp"
 
@@ -22,6 +23,9 @@ static_assert(static_cast<int>(EmptyStripe::kUnknownEncoding) == stripe_t::UNKNO
 
 namespace {
 
+// Of a scan: 20 minutes at 14 Hz. A number beyond is damage or a stranger's, and says nothing.
+constexpr std::int64_t kMostLost = 20'000;
+
 cv::Mat view(const GreyImage& grey) {
   return {grey.height, grey.width, CV_8U, const_cast<std::uint8_t*>(grey.data),
           static_cast<std::size_t>(grey.stride)};
@@ -33,6 +37,11 @@ ExtractionApp::ExtractionApp(Bus& bus, const ExtractionSettings& settings, const
     : bus_(bus), stripe_channel_(instance.sensor_channel("STRIPE")), extractor_(settings) {
   bus_.subscribe<image_t>(instance.sensor_channel("IMAGE"), Queue::images(),
                           [this](const image_t& image) { take(image); });
+  bus_.subscribe<calibration_t>(instance.sensor_channel("CALIBRATION"), Queue::measurements(),
+                                [this](const calibration_t& message) {
+                                  sensor_width_ = message.width;
+                                  sensor_height_ = message.height;
+                                });
 }
 
 void ExtractionApp::take(const image_t& image) {
@@ -51,12 +60,15 @@ void ExtractionApp::count_lost(const image_t& image) {
   if (image.scan_id == 0) return;
   const bool same_scan = image.scan_id == scan_id_ && image.run_id == run_id_;
   const std::int64_t lost = same_scan ? image.seq - seq_ - 1 : image.scan_index;
-  if (lost <= 0) return;
+  // What this process itself has not taken in it can name.
+  const std::int64_t dropped = bus_.undecodable() + bus_.overflowed();
+  const bool dropped_here = dropped > std::exchange(dropped_, dropped);
+  if (lost <= 0 || lost > kMostLost) return;
   health_.lost += lost;
-  health_.last_error = fmt::format(
-      "{} images lost before seq {}: see the receive buffer's size and the camera's statistics",
-      lost, image.seq);
-  spdlog::warn(health_.last_error);
+  health_.last_error =
+      fmt::format("{} images lost before seq {}: {}", lost, image.seq,
+                  dropped_here ? bus_.last_error()
+                               : "see the receive buffer's size and the camera's statistics");
 }
 
 EmptyStripe ExtractionApp::grey_values(const image_t& image, GreyImage& grey, std::string& detail) {
@@ -68,6 +80,14 @@ EmptyStripe ExtractionApp::grey_values(const image_t& image, GreyImage& grey, st
   EmptyStripe why = EmptyStripe::kNone;
   if (image.width <= 0 || image.height <= 0) {
     detail = "image has no size";
+  } else if (sensor_width_ != 0 &&
+             (image.sensor_width != sensor_width_ || image.sensor_height != sensor_height_)) {
+    // Before it is decoded: a small PNG may stand for gigabytes. That the image lies within its
+    // sensor is a message's meaning.
+    detail = fmt::format(
+        "its sensor has {} x {} pixels, the calibration's {} x {}: of which camera "
+        "is it?",
+        image.sensor_width, image.sensor_height, sensor_width_, sensor_height_);
   } else if (image.encoding == image_t::PNG) {
     detail = decode_grey_png(data, image.data.size(), image.width, image.height, decoded_);
     data = decoded_.data;
@@ -81,7 +101,6 @@ EmptyStripe ExtractionApp::grey_values(const image_t& image, GreyImage& grey, st
   if (!detail.empty()) {
     if (why == EmptyStripe::kNone) why = EmptyStripe::kUnreadableImage;
     health_.last_error = fmt::format("image seq {}: {}", image.seq, to_words(why, detail));
-    spdlog::warn("{}", health_.last_error);
     return why;
   }
   grey = {

@@ -1,6 +1,8 @@
-// The service `extraction`: <SENSOR>_IMAGE in, <SENSOR>_STRIPE out, exactly one for each.
+// The service `extraction`: <SENSOR>_IMAGE in, <SENSOR>_STRIPE out, exactly one for each. Of
+// <SENSOR>_CALIBRATION it takes the sensor's size alone.
 #pragma once
 
+#include <arcstart/calibration_t.hpp>
 #include <arcstart/image_t.hpp>
 #include <arcstart/stripe_t.hpp>
 #include <cstdint>
@@ -35,6 +37,9 @@ class ExtractionApp : public App {
   cv::Mat decoded_, difference_;
   Stripe stripe_;
   Health health_;
+
+  int sensor_width_ = 0, sensor_height_ = 0;  // the calibration's, 0 before the first; px
+  std::int64_t dropped_ = 0;                  // by the bus, before the newest image
 
   // Of the image before.
   std::int64_t run_id_ = -1, scan_id_ = 0, seq_ = -1;

@@ -15,8 +15,9 @@ Reconstruction::Reconstruction(const ReconstructionSettings& settings)
       pending_(seconds_to_us(settings.wait_for_calibration_s),
                static_cast<std::size_t>(settings.waiting_stripes)) {}
 
-void Reconstruction::take_position(std::int64_t utime, const RigidTransform& T_base_tool) {
-  trajectory_.insert(utime, T_base_tool);
+void Reconstruction::take_position(std::int64_t utime, const RigidTransform& T_base_tool,
+                                   bool disputed) {
+  trajectory_.insert(utime, T_base_tool, disputed);
   pending_.decide(trajectory_, calibrations_);
 }
 

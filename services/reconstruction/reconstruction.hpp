@@ -17,7 +17,8 @@ class Reconstruction {
  public:
   explicit Reconstruction(const ReconstructionSettings& settings);
 
-  void take_position(std::int64_t utime, const RigidTransform& T_base_tool);
+  // disputed: it is not known whose position it is.
+  void take_position(std::int64_t utime, const RigidTransform& T_base_tool, bool disputed = false);
   void take_calibration(std::shared_ptr<const Calibration> calibration);
   void take_stripe(ReceivedStripe stripe);
 

@@ -117,9 +117,14 @@ void ReconstructionApp::take_position(const robot_pose_t& message) {
   const auto dropped = [&] { return trajectory.dropped_going_back() + trajectory.dropped_jumps(); };
   const std::int64_t dropped_before = dropped();
   position_error_ = message.invalid;
+  // Of two senders the first message of the other looks like that of one that was started again.
+  const std::int64_t run_before = std::exchange(position_run_, message.run_id);
+  const bool other_run = run_before != 0 && run_before != message.run_id;
+  const bool disputed = !bus_.dispute(instance_.robot_channel("POSE")).empty();
   if (message.invalid.empty()) {
     reconstruction_.take_position(message.utime,
-                                  transform_from_arrays(message.position, message.quaternion));
+                                  transform_from_arrays(message.position, message.quaternion),
+                                  disputed || other_run);
     if (dropped() != dropped_before) position_error_ = "its stamp jumps or goes back";
   }
   publish_profiles();
@@ -187,12 +192,12 @@ Health ReconstructionApp::health() const {
 // Groups are scans, or runs: a new one begins anew.
 std::int64_t ReconstructionApp::Numbering::missing_before(std::int64_t new_group,
                                                           std::int64_t number) {
-  constexpr std::int64_t kMost = 1'000'000;  // a wild number must not drown the true ones
+  constexpr std::int64_t kMost = 100'000;  // 7 minutes of positions: a wild number says nothing
   const bool follows = new_group == group && last >= 0 && number > last;
-  const std::int64_t missing = follows ? std::min(number - last - 1, kMost) : 0;
+  const std::int64_t missing = follows ? number - last - 1 : 0;
   group = new_group;
   last = number;
-  return missing;
+  return missing <= kMost ? missing : 0;
 }
 
 }  // namespace arcstart::reconstruction

@@ -41,6 +41,7 @@ class ReconstructionApp : public App {
   Instance instance_;
   Reconstruction reconstruction_;
 
+  std::int64_t position_run_ = 0;                // of the newest position
   std::string position_error_;                   // why the last position was dropped
   std::vector<std::uint8_t> calibration_bytes_;  // of the newest accepted, with M as derived here
   std::string calibration_refused_;              // why the last one was not, empty where it was

@@ -7,8 +7,8 @@
 
 namespace arcstart::reconstruction {
 
-void TrajectoryQueue::insert(std::int64_t utime, const RigidTransform& T_base_tool) {
-  const Position position{utime, T_base_tool};
+void TrajectoryQueue::insert(std::int64_t utime, const RigidTransform& T_base_tool, bool disputed) {
+  const Position position{utime, T_base_tool, disputed};
   if (positions_.empty()) return append(position);
   const std::int64_t last = positions_.back().utime;
   if (std::abs(utime - last) > kJump) {
@@ -63,6 +63,10 @@ TrajectoryQueue::Lookup TrajectoryQueue::at(std::int64_t utime) const {
   const std::int64_t gap = later->utime - earlier->utime;
   if (gap > largest_gap_) {
     lookup.reason = fmt::format("positions {:.0f} ms apart", static_cast<double>(gap) / 1e3);
+    return lookup;
+  }
+  if (earlier->disputed || later->disputed) {
+    lookup.reason = "the positions come from two senders";
     return lookup;
   }
   lookup.state = State::found;

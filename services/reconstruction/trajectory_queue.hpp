@@ -21,8 +21,9 @@ class TrajectoryQueue {
       : keep_(keep), largest_gap_(largest_gap) {}
 
   // The stream's next position. One whose stamp does not rise is dropped. So is a single jump; when
-  // the position after it goes on from it, the two begin a new stream.
-  void insert(std::int64_t utime, const RigidTransform& T_base_tool);
+  // the position after it goes on from it, the two begin a new stream. Beside a disputed one (it is
+  // not known whose it is) nothing is interpolated.
+  void insert(std::int64_t utime, const RigidTransform& T_base_tool, bool disputed = false);
 
   enum class State {
     waiting,  // no later position has come yet
@@ -49,6 +50,7 @@ class TrajectoryQueue {
   struct Position {
     std::int64_t utime;
     RigidTransform T_base_tool;
+    bool disputed;
   };
   void append(const Position& position);
 

@@ -33,7 +33,19 @@ RobotPoseApp::RobotPoseApp(Bus& bus, const RobotPoseSettings& settings, const In
     scanning_ = m.state == scan_t::SCANNING;
     scan_heard_ = steady_now();
   });
+  bus_.subscribe<clock_probe_t>(
+      "CLOCK_PROBE", Queue::measurements(),
+      [this, robot = instance.robot](const clock_probe_t& m) { answer(m, robot); });
   source_->start();
+}
+
+// At once: what it takes widens the bound of the clocks' difference.
+void RobotPoseApp::answer(clock_probe_t question, const std::string& robot) {
+  if (question.answerer_run_id != 0 || question.robot != robot) return;
+  question.heard_utime = utime_now();
+  question.answerer_run_id = run_id_;
+  question.answered_utime = utime_now();
+  bus_.publish("CLOCK_PROBE", question);
 }
 
 void RobotPoseApp::tick(std::int64_t) {

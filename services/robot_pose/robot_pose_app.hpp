@@ -1,6 +1,7 @@
 // Positions of the robot on the bus: one ROBOT0_POSE for each the controller reports.
 #pragma once
 
+#include <arcstart/clock_probe_t.hpp>
 #include <arcstart/scan_t.hpp>
 #include <memory>
 
@@ -21,6 +22,7 @@ class RobotPoseApp : public App {
   Health health() const override { return health_; }
 
  private:
+  void answer(clock_probe_t question, const std::string& robot);
   void publish(const ReportedPosition& reported);
   void note_errors(std::int64_t now);
   void judge(std::int64_t now);

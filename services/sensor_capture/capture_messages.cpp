@@ -103,8 +103,7 @@ scan_t make_scan_message(const ScanState& state) {
   message.request = state.scan.purpose.request;
   message.job = state.scan.purpose.job;
   message.part = state.scan.purpose.part;
-  message.clock_difference = 0;  // nobody compares the hosts' clocks yet
-  message.clock_bound = -1;
+  message.clock_bound = -1;  // filled in by whoever compares the hosts' clocks
   message.refused_command_id = state.refused_command_id;
   message.refusal = state.refusal;
   message.previous_scan_id = state.previous.scan_id;

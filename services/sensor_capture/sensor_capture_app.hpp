@@ -13,6 +13,7 @@
 
 #include "common/clock_mapping.hpp"
 #include "common/service.hpp"
+#include "services/sensor_capture/clock_probes.hpp"
 #include "services/sensor_capture/frames/frame_source.hpp"
 #include "services/sensor_capture/frames/settings_timeline.hpp"
 #include "services/sensor_capture/scan/scan_owner.hpp"
@@ -37,6 +38,7 @@ class SensorCaptureApp : public App {
     std::int64_t ticket;  // of the request for these settings
     int left;
     std::int64_t latest_utime;  // by when it is given up
+    std::int64_t heard;         // last; steady, us
   };
 
   void take(Frame& frame, std::int64_t now);
@@ -48,10 +50,13 @@ class SensorCaptureApp : public App {
   void end_command(const std::string& why);
 
   CameraSettings wanted_settings() const;
+  bool is_unattended() const;
+  std::string laser_state() const;
   void ask_for(const CameraSettings& settings, std::int64_t now);
   void follow_scan(std::int64_t now);
   void publish_image(image_t& image, Frame& frame, const Membership& membership,
                      std::int64_t command_id);
+  void publish_end(image_t image);
   void publish_scan(std::int64_t now);
 
   Bus& bus_;
@@ -60,17 +65,22 @@ class SensorCaptureApp : public App {
   std::int64_t run_id_;
   std::unique_ptr<FrameSource> source_;
   ClockMapping clock_;
+  ClockProbes probes_;
   SettingsTimeline timeline_;
   ScanOwner owner_;
 
   bool found_ = false;
   bool wired_laser_ = false;
+  bool lit_ = false;  // asked for and not yet known to be dark
   std::string camera_trouble_ = "the camera has not been found yet";
   bool starting_ = true;
   std::int64_t last_ticket_ = 0;
   std::optional<CameraSettings> asked_;  // last; nothing where it is not known
   std::optional<CommandedImages> command_;
   std::deque<std::int64_t> known_commands_;
+
+  image_t newest_image_{};  // without its bytes
+  int ends_left_ = 0;       // to be sent of the scan that runs, or has ended last
 
   std::int64_t next_preview_ = 0, next_scan_state_ = 0;  // steady; us
   std::int64_t told_revision_ = -1;

@@ -72,6 +72,25 @@ class Cell {
   }
   Health health() const { return app_.health(); }
 
+  void send(const image_t& image) {
+    bus_->publish("LASER0_IMAGE", image);
+    while (bus_->handle(std::chrono::milliseconds(0))) {
+    }
+  }
+  std::size_t stripes() const { return stripes_.size(); }
+  void calibrate(int width, int height) {
+    calibration_t message{};
+    message.id = "a";
+    message.width = width;
+    message.height = height;
+    message.laser_plane[2] = message.camera_quaternion[0] = 1;
+    message.camera_limit = message.laser_plane_limit = message.leave_one_out_limit = -1;
+    message.predicted_limit = message.robot_position_limit = message.robot_orientation_limit = -1;
+    bus_->publish("LASER0_CALIBRATION", message);
+    while (bus_->handle(std::chrono::milliseconds(0))) {
+    }
+  }
+
  private:
   std::unique_ptr<Bus> bus_;
   ExtractionApp app_;
@@ -197,6 +216,48 @@ TEST_CASE("gaps in a scan's sequence are counted as lost, what lies between scan
   late.scan_index = 3;
   cell.answer(late);
   CHECK(cell.health().lost == 5);
+  // A wild number adds nothing, nor does the true one after it.
+  image_t wild = late;
+  wild.seq = 1'000'000'000'000;
+  cell.answer(wild);
+  late.seq = 701;
+  cell.answer(late);
+  CHECK(cell.health().lost == 5);
+}
+
+TEST_CASE("an image whose bytes were damaged on the way is lost, and that is what is said") {
+  Cell cell;
+  cell.answer(Cell::image(picture(), 0));
+  image_t damaged = Cell::image(picture(), 1);
+  damaged.data[20'000] ^= 1;
+  cell.send(damaged);
+  CHECK(cell.stripes() == 1);
+  cell.answer(Cell::image(picture(), 2));
+  CHECK(cell.health().lost == 1);
+  CHECK_THAT(cell.health().last_error,
+             Catch::Contains("1 images lost before seq 2") && Catch::Contains("CRC-32C"));
+  cell.answer(Cell::image(picture(), 5));  // these did not come at all
+  CHECK(cell.health().lost == 3);
+  CHECK_THAT(cell.health().last_error,
+             Catch::Contains("2 images lost before seq 5") && Catch::Contains("receive buffer"));
+}
+
+TEST_CASE("an image of another sensor than the calibration's is refused before it is decoded") {
+  Cell cell;
+  image_t huge = Cell::image(picture(), 0);
+  huge.width = huge.sensor_width = huge.height = huge.sensor_height = 20'000;
+  huge.encoding = image_t::PNG;
+  huge.data.resize(5000);
+  put_checksum(huge);
+  CHECK(cell.answer(huge).empty == "not a PNG");  // no calibration is known: it was looked at
+  cell.calibrate(1600, 1200);
+  ++huge.seq;
+  const stripe_t refused = cell.answer(huge);
+  CHECK(refused.why == stripe_t::UNREADABLE_IMAGE);
+  CHECK_THAT(refused.empty, Catch::Contains("20000 x 20000") && Catch::Contains("1600 x 1200"));
+  CHECK(cell.answer(Cell::image(picture(), 2)).empty.empty());
+  cell.calibrate(1600, 1201);
+  CHECK(cell.answer(Cell::image(picture(), 3)).why == stripe_t::UNREADABLE_IMAGE);
 }
 
 TEST_CASE("where the laser is on and off by turns, the image before is subtracted") {

@@ -78,6 +78,48 @@ TEST_CASE("what is not finite or not of unit length never comes in, and is count
   CHECK(chain.profiles[0].empty == "");
 }
 
+TEST_CASE("no stripe is placed by positions of two senders") {
+  // A stranger's lie 25 mm beside and are stamped 25 ms ahead, so that the true ones seem to go
+  // back. One stripe before the stranger comes, and one after a restart that is none of its kind.
+  Chain chain;
+  chain.send("LASER0_CALIBRATION", calibration());
+  const auto send_both = [&](std::int64_t from, std::int64_t to) {
+    for (std::int64_t time = from; time <= to; time += 20'000) {
+      robot_pose_t stranger = pose_at(time);
+      stranger.run_id = 99;
+      stranger.utime += 25'000;
+      stranger.position[0] += 25;
+      chain.send("ROBOT0_POSE", stranger);
+      chain.send("ROBOT0_POSE", pose_at(time));
+    }
+  };
+  chain.positions(0, 200'000);
+  chain.stripe(stripe_at(100'000, 0, 42).message);
+  send_both(220'000, 600'000);
+  for (int i = 0; i < 4; ++i) chain.stripe(stripe_at(215'000 + 90'000 * i, 1 + i, 42).message);
+  REQUIRE(chain.profiles.size() == 5);
+  CHECK(chain.profiles[0].count > 0);
+  for (std::size_t i = 1; i < 5; ++i) {
+    CHECK(chain.profiles[i].why == profile_t::NO_POSITION);
+    CHECK_THAT(chain.profiles[i].empty, Catch::Contains("two senders"));
+  }
+  CHECK_THAT(chain.bus->dispute(), Catch::Contains("ROBOT0_POSE: two senders"));
+}
+
+TEST_CASE("a robot_pose that was started again is no second one") {
+  Chain chain;
+  chain.send("LASER0_CALIBRATION", calibration());
+  chain.positions(0, 200'000);
+  for (std::int64_t time = 500'000; time <= 900'000; time += 20'000) {
+    robot_pose_t pose = pose_at(time);
+    pose.run_id = 99;
+    chain.send("ROBOT0_POSE", pose);
+  }
+  chain.stripe(stripe_at(600'000, 0, 42).message);
+  REQUIRE(chain.profiles.size() == 1);
+  CHECK(chain.profiles[0].count > 0);
+}
+
 TEST_CASE("what is lost, invalid or silent is told") {
   ReconstructionSettings settings;
   settings.silence_warning_s = 0.1;
@@ -100,6 +142,12 @@ TEST_CASE("what is lost, invalid or silent is told") {
   chain.positions(260'000, 260'000);  // going back
   CHECK(chain.app.health().lost == 6);
   CHECK(chain.app.health().last_error.find("jumps or goes back") != std::string::npos);
+
+  robot_pose_t wild = pose_at(340'001);
+  wild.seq = 1'000'000'000'000;
+  chain.send("ROBOT0_POSE", wild);
+  chain.positions(360'000, 360'000);
+  CHECK(chain.app.health().lost == 6);
 
   chain.stripe(stripe_at(900'000, 1, 43).message);
   std::this_thread::sleep_for(std::chrono::milliseconds(150));

@@ -75,6 +75,36 @@ constexpr std::int64_t kStart = 1'700'000'000'000'000;
 
 }  // namespace
 
+TEST_CASE(
+    "robot_pose: a clock's question is answered with this host's stamps, another robot's is not") {
+  Cell cell;
+  std::vector<clock_probe_t> heard;
+  cell.bus->subscribe<clock_probe_t>("CLOCK_PROBE", Queue::measurements(),
+                                     [&](const clock_probe_t& m) { heard.push_back(m); });
+  clock_probe_t question{};
+  question.robot = "ROBOT0";
+  question.asker_run_id = 5;
+  question.seq = 9;
+  question.asked_utime = 4711;
+  const std::int64_t before = utime_now();
+  cell.bus->publish("CLOCK_PROBE", question);
+  cell.step();
+  REQUIRE(heard.size() == 2);  // the question, and one answer: it does not answer itself
+  const clock_probe_t& answer = heard.back();
+  CHECK(answer.answerer_run_id == 77);
+  CHECK(answer.robot == "ROBOT0");
+  CHECK(answer.asker_run_id == 5);
+  CHECK(answer.seq == 9);
+  CHECK(answer.asked_utime == 4711);
+  CHECK(answer.heard_utime >= before);
+  CHECK(answer.answered_utime >= answer.heard_utime);
+  CHECK(answer.answered_utime <= utime_now());
+  question.robot = "ROBOT1";
+  cell.bus->publish("CLOCK_PROBE", question);
+  cell.step();
+  CHECK(heard.size() == 3);
+}
+
 TEST_CASE("robot_pose: one message a position, every field carried over") {
   Cell cell;
   ReportedPosition position;

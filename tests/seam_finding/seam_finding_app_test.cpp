@@ -135,7 +135,11 @@ TEST_CASE("a restarted sensor_capture refuses the scan, the next is right") {
   life.scan(scans().empty);
   life.state(scans().work.scanning);
   for (int i = 0; i < 20; ++i) life.profile(scans().work.profiles[i]);
-  life.state(idle_state(scans().work.scanning.run_id + 30 * kSecond));
+  scan_t idle = idle_state(scans().work.scanning.run_id + 30 * kSecond);
+  life.state(idle);
+  CHECK(life.seams.size() == 1);  // it may be a second one
+  idle.utime += 200'000;
+  life.state(idle);
   REQUIRE(life.seams.size() == 2);
   CHECK(life.seams[1].verdict == seam_t::REFUSED);
   CHECK_THAT(life.seams[1].reason, Catch::Contains("sensor_capture restarted"));

@@ -91,6 +91,39 @@ TEST_CASE("sensor_capture: a scan's images, their fields and its state") {
   CHECK(last_scan < last_image);
 }
 
+TEST_CASE("sensor_capture: a scan's end is told three times on the images' channel, behind them") {
+  ScriptedCell cell;
+  cell.find_camera();
+  cell.expose();
+  CHECK(cell.ends.empty());  // no scan has run
+  cell.scan_command(7, scan_command_t::START);
+  cell.answer();
+  cell.settle();
+  for (int i = 0; i < 3; ++i) cell.expose();
+  REQUIRE(cell.images.size() == 3);
+  CHECK(cell.ends.empty());
+  SECTION("by the frames that follow") {
+    cell.scan_command(8, scan_command_t::STOP);
+    for (int i = 0; i < 6; ++i) cell.expose();
+    REQUIRE(cell.ends.size() == 3);
+  }
+  SECTION("at once where the camera is lost") {
+    cell.script.events.push_back(CameraLost{"gone"});
+    cell.step();
+    REQUIRE(cell.ends.size() == 1);  // the same three times, of which the bus gives out one
+  }
+  REQUIRE(cell.scans.back().state == scan_t::ENDED);
+  CHECK(cell.images.size() == 3);
+  for (const image_t& end : cell.ends) {
+    CHECK(end.run_id == 55);
+    CHECK(end.seq > cell.scans.back().last_seq);
+    CHECK(end.utime > cell.images.back().utime);
+    CHECK(end.scan_index == -1);
+    CHECK(end.size == 0);
+    CHECK_FALSE(end.incomplete.empty());
+  }
+}
+
 TEST_CASE("sensor_capture: the clock's mapping stands still while a scan runs") {
   ScriptedCell cell;
   cell.find_camera();

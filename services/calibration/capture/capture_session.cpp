@@ -53,6 +53,8 @@ cv::Mat decoded(const image_t& image, std::string& trouble) {
   cv::Mat grey;
   if (!image.incomplete.empty())
     trouble = image.incomplete;
+  else if (image.width != image.sensor_width || image.height != image.sensor_height)
+    trouble = "the image shows a part of the sensor: a calibration needs all of it";
   else if (image.encoding == image_t::PNG)
     trouble = extraction::decode_grey_png(image.data.data(), image.data.size(), image.width,
                                           image.height, grey);
@@ -61,8 +63,6 @@ cv::Mat decoded(const image_t& image, std::string& trouble) {
   else
     grey = cv::Mat(image.height, image.width, CV_8U, const_cast<std::uint8_t*>(image.data.data()))
                .clone();
-  if (trouble.empty() && (image.width != image.sensor_width || image.height != image.sensor_height))
-    trouble = "the image shows a part of the sensor: a calibration needs all of it";
   return grey;
 }
 

@@ -14,8 +14,12 @@ constexpr std::size_t kTicks = 6;  // over which rates are taken: five seconds
 
 std::string text_of(const scan_t& scan) {
   static constexpr std::array kStates = {"idle", "scanning", "ended"};
-  return fmt::format("{}, {} images, {} lost {}", kStates[static_cast<std::size_t>(scan.state)],
-                     scan.images, scan.lost, scan.refusal);
+  const std::string clocks = scan.clock_bound < 0
+                                 ? "clocks not compared"
+                                 : fmt::format("clocks {:.1f} +- {:.1f} ms apart",
+                                               scan.clock_difference * 1e3, scan.clock_bound * 1e3);
+  return fmt::format("{}, {} images, {} lost, {} {}", kStates[static_cast<std::size_t>(scan.state)],
+                     scan.images, scan.lost, clocks, scan.refusal);
 }
 
 std::string text_of(const service_status_t& status) {
@@ -29,6 +33,8 @@ std::string text_of(const seam_t& seam) {
   const std::string verdict = kVerdicts[static_cast<std::size_t>(seam.verdict)];
   return seam.reason.empty() ? verdict : verdict + ": " + seam.reason;
 }
+
+std::string text_of(const image_t& preview) { return preview.laser_on ? "laser on" : "laser off"; }
 
 std::string text_of(const calibration_t& calibration) { return "id " + calibration.id; }
 
@@ -48,6 +54,8 @@ std::string state_of(ChannelKind kind, const std::vector<std::uint8_t>& bytes) {
       return state_text<seam_t>(bytes);
     case ChannelKind::kCalibration:
       return state_text<calibration_t>(bytes);
+    case ChannelKind::kPreview:
+      return state_text<image_t>(bytes);
     default:
       return "";
   }
@@ -77,13 +85,18 @@ void Traffic::take(const std::string& name, const std::vector<std::uint8_t>& byt
       channel.state = former + " of the version before: bring its sender to this version";
     return;
   }
-  if (is_measurement(channel.kind)) note_source(channel, bytes);
   channel.state = state_of(channel.kind, bytes);
+  if (is_measurement(channel.kind)) note_source(channel, bytes);
 }
 
 void Traffic::note_source(Channel& channel, const std::vector<std::uint8_t>& bytes) {
   Source source;
   if (!read_source(channel.kind, bytes, source).empty()) return;
+  // An image's first bytes hold its checksum.
+  const auto head = std::span(bytes).first(std::min<std::size_t>(bytes.size(), 512));
+  const bool is_repeated = channel.senders.is_repeated(source.run_id, source.seq, head);
+  channel.state = channel.senders.dispute();
+  if (is_repeated) return;
   if (source.run_id != channel.run_id) channel.seq = -1;
   if (channel.seq >= 0 && source.seq > channel.seq) {
     // A sender may state any seq: the sum must not overflow.

@@ -8,6 +8,7 @@
 #include <string>
 #include <vector>
 
+#include "common/bus/sender_watch.hpp"
 #include "services/command_line/recordings/message_facts.hpp"
 
 namespace arcstart::command_line {
@@ -46,7 +47,8 @@ class Traffic {
     std::int64_t run_id = 0, seq = -1;
     std::int64_t gaps = 0;  // messages missing by seq
     std::int64_t undecodable = 0;
-    std::string state;  // what the newest state says, printable
+    SenderWatch senders;  // of a measurement
+    std::string state;    // what the newest state says, printable; of a measurement, two senders
   };
   struct Rates {
     double messages_per_s = 0, bytes_per_s = 0;

@@ -59,6 +59,7 @@ std::string error_of(const std::vector<std::uint8_t>& bytes) {
 ChannelKind channel_kind(const std::string& channel) {
   if (channel == "CELL_COMMAND") return ChannelKind::kCellCommand;
   if (channel == "CELL_TRUTH") return ChannelKind::kCellTruth;
+  if (channel == "CLOCK_PROBE") return ChannelKind::kClockProbe;
   for (const auto& [ending, kind] : kEndings)
     if (channel.size() > ending.size() && channel.ends_with(ending)) return kind;
   return ChannelKind::kUnknown;
@@ -104,6 +105,8 @@ std::string message_error(ChannelKind kind, const std::vector<std::uint8_t>& byt
       return error_of<cell_command_t>(bytes);
     case ChannelKind::kCellTruth:
       return error_of<truth_t>(bytes);
+    case ChannelKind::kClockProbe:
+      return error_of<clock_probe_t>(bytes);
     case ChannelKind::kUnknown:
       break;
   }

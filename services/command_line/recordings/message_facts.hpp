@@ -28,6 +28,7 @@ enum class ChannelKind {
   kStatus,
   kCellCommand,
   kCellTruth,
+  kClockProbe,
   kUnknown
 };
 

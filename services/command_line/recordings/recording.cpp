@@ -226,8 +226,12 @@ void Recording::add(ChannelKind kind, const RecordedMessage& message) {
 
 std::vector<RecordedMessage> Recording::sources(
     const std::function<bool(const RecordedScan&)>& is_wanted) const {
+  Stage first = Stage::kProfiles;
+  for (const auto& [id, scan] : scans_) first = std::min(first, scan.stage());
   const auto wanted = [&](ChannelKind kind, const RecordedMessage& message) {
     if (kind == ChannelKind::kCalibration || kind == ChannelKind::kPose) return true;
+    // Outside the scans: what tells that one has ended, where its last image was lost.
+    if (message.scan_id == 0 && stage_of(kind)) return stage_of(kind) == first;
     const auto scan = scans_.find(message.scan_id);
     if (scan == scans_.end()) return kind == ChannelKind::kScan;
     return is_wanted(scan->second) &&

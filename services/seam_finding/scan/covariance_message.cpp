@@ -3,6 +3,7 @@
 #include <Eigen/Geometry>
 
 #include "services/seam_finding/answer/calibration_covariance.hpp"
+#include "services/seam_finding/scan/clock_share.hpp"
 
 namespace arcstart::seam_finding {
 namespace {
@@ -59,10 +60,14 @@ void fill_in_calibration_covariance(seam_t& seam, const CollectedScan& scan,
   if (calibration == nullptr || calibration->id != seam.calibration_id)
     return undetermined("the scan's calibration was not heard of here");
   if (calibration->covariance.empty()) return undetermined("the calibration has no covariance");
-  const auto start = calibration_covariance(
-      *calibration, seen_near(scan, Eigen::Map<const Eigen::Vector3d>(seam.start)));
-  const auto end = calibration_covariance(
-      *calibration, seen_near(scan, Eigen::Map<const Eigen::Vector3d>(seam.end)));
+  const auto systematic = [&](const double* place) {
+    const SeenPoint seen = seen_near(scan, Eigen::Map<const Eigen::Vector3d>(place));
+    auto covariance = calibration_covariance(*calibration, seen);
+    const Eigen::Vector3d displaced = clock_doubt(scan.state) * seen.velocity;
+    if (covariance) *covariance += displaced * displaced.transpose();
+    return covariance;
+  };
+  const auto start = systematic(seam.start), end = systematic(seam.end);
   if (!start || !end) return undetermined("the calibration's covariance is none");
   for (int row = 0; row < 3; ++row)
     for (int column = 0; column < 3; ++column) {

@@ -8,6 +8,7 @@
 #include "services/seam_finding/find_seam.hpp"
 #include "services/seam_finding/paper/find_seam_as_in_the_paper.hpp"
 #include "services/seam_finding/referee/ruling.hpp"
+#include "services/seam_finding/scan/clock_share.hpp"
 #include "services/seam_finding/scan/cloud_builder.hpp"
 #include "services/seam_finding/scan/covariance_message.hpp"
 #include "services/seam_finding/scan/seam_message.hpp"
@@ -145,14 +146,18 @@ StoredBackground::StoredBackground(const CollectedScan& scan, const SeamFindingS
 ScanRefusal background_error(const CollectedScan& scan) {
   if (!scan.refusal.empty()) return scan.refusal;
   const ScanBalance balance = balance_of(scan);
-  if (balance.stripes == 0) return refuse_scan(seam_t::BACKGROUND_EMPTY);
   if (calibration_changed(scan)) return refuse_scan(seam_t::CALIBRATION_CHANGED);
+  if (const ScanRefusal refusal = clock_refusal(scan); !refusal.empty()) return refusal;
   if (scan.state.end_cause == scan_t::CAMERA_LOST) return refuse_scan(seam_t::CAMERA_LOST);
   const ScanCloud cloud = cloud_of(scan);
   const int missing = missing_of(cloud);
+  if (scan.profiles.empty() && scan.state.images > 0)
+    return refuse_missing(balance, scan.state.images, scan.state.images, seam_t::BACKGROUND_OVERLIT,
+                          seam_t::BACKGROUND_INCOMPLETE);
   if (20 * missing > static_cast<int>(cloud.stripes.size()) || two_missing_in_a_row(cloud))
     return refuse_missing(balance, missing, cloud.stripes.size(), seam_t::BACKGROUND_OVERLIT,
                           seam_t::BACKGROUND_INCOMPLETE);
+  if (balance.stripes == 0) return refuse_scan(seam_t::BACKGROUND_EMPTY);
   return {};
 }
 
@@ -187,6 +192,8 @@ seam_t answer_workpiece(const CollectedScan& scan, const PreparedScan& prepared,
   seam.calibration_id = calibration_of(scan);
   if (calibration_changed(scan)) return refused(seam, seam_t::CALIBRATION_CHANGED);
   if (scan.state.images == 0) return refused(seam, seam_t::NO_IMAGES);
+  if (const ScanRefusal refusal = clock_refusal(scan); !refusal.empty())
+    return refused(seam, refusal);
   const ScanBalance balance = balance_of(scan);
   const ScanCloud& cloud = prepared.cloud;
   const int missing = missing_of(cloud);

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <arcstart/seam_t.hpp>
+#include <utility>
 
 #include "services/seam_finding/scan/scan_limits.hpp"
 
@@ -11,6 +12,15 @@ namespace {
 // As in scan_limits.hpp.
 constexpr std::size_t kMostOpen = 4;
 constexpr std::size_t kMostAnswered = 1000;
+
+bool are_same(const profile_t& a, const profile_t& b) {
+  const auto bytes_of = [](const profile_t& profile) {
+    std::vector<std::uint8_t> bytes(static_cast<std::size_t>(profile.getEncodedSize()));
+    profile.encode(bytes.data(), 0, static_cast<int>(bytes.size()));
+    return bytes;
+  };
+  return bytes_of(a) == bytes_of(b);
+}
 
 // A scan's end as the next scan's state still tells it; known: what was heard of it before.
 scan_t previous_of(const scan_t& state, const std::optional<scan_t>& known) {
@@ -65,10 +75,21 @@ ScanCollector::OpenScan* ScanCollector::find_or_open(std::int64_t scan_id, std::
 // heard hangs on the two channels' pace, so none of them counts.
 void ScanCollector::refuse_older_runs(std::int64_t run_id) {
   for (OpenScan& scan : open_) {
-    if (scan.run_id >= run_id || scan.has_ended()) continue;
-    scan.refusal = refuse_scan(seam_t::SENSOR_CAPTURE_RESTARTED);
-    scan.profiles.clear();
+    if (scan.run_id < run_id && !scan.has_ended()) refuse(scan, seam_t::SENSOR_CAPTURE_RESTARTED);
   }
+}
+
+void ScanCollector::refuse(OpenScan& scan, std::int16_t code) {
+  if (scan.refusal.empty()) scan.refusal = refuse_scan(code);
+  scan.profiles.clear();
+}
+
+void ScanCollector::watch_senders(const scan_t& state) {
+  senders_.is_repeated(state.run_id, state.utime, {});
+  if (!senders_.dispute().empty())
+    for (OpenScan& scan : open_) refuse(scan, seam_t::TWO_SENDERS);
+  // Whether another run is a restarted sensor_capture or a second one its next word tells.
+  if (state.run_id == std::exchange(newest_run_, state.run_id)) refuse_older_runs(state.run_id);
 }
 
 void ScanCollector::take_end_of_previous(const scan_t& state) {
@@ -78,8 +99,8 @@ void ScanCollector::take_end_of_previous(const scan_t& state) {
 }
 
 void ScanCollector::take(const scan_t& state) {
+  watch_senders(state);
   take_end_of_previous(state);
-  refuse_older_runs(state.run_id);
   if (state.state == scan_t::IDLE || state.scan_id == 0) return;
   OpenScan* scan = find_or_open(state.scan_id, state.run_id);
   if (scan && !scan->has_ended()) scan->state = state;
@@ -92,10 +113,13 @@ void ScanCollector::take(const profile_t& profile) {
   OpenScan* scan = find_or_open(profile.scan_id, profile.run_id);
   if (!scan || scan->run_id != profile.run_id || !scan->refusal.empty()) return;
   scan->newest_seq = std::max(scan->newest_seq, profile.seq);
-  if (scan->profiles.try_emplace(profile.seq, profile).second) scan->points += profile.x.size();
+  const auto [known, is_new] = scan->profiles.try_emplace(profile.seq, profile);
+  if (is_new)
+    scan->points += profile.x.size();
+  else if (!are_same(known->second, profile))
+    return refuse(*scan, seam_t::TWO_SENDERS);
   if (scan->profiles.size() <= kMostProfiles && scan->points <= kMostPoints) return;
-  scan->refusal = refuse_scan(seam_t::TOO_MANY_POINTS);
-  scan->profiles.clear();
+  refuse(*scan, seam_t::TOO_MANY_POINTS);
 }
 
 std::optional<CollectedScan> ScanCollector::next() {

@@ -9,6 +9,7 @@
 #include <optional>
 #include <vector>
 
+#include "common/bus/sender_watch.hpp"
 #include "services/seam_finding/scan/scan_refusal.hpp"
 
 namespace arcstart::seam_finding {
@@ -21,7 +22,8 @@ struct CollectedScan {
 };
 
 // Takes <SENSOR>_SCAN and <SENSOR>_PROFILE in whatever order the two channels come. What it gives
-// depends on each channel's own order alone, but for give_up().
+// depends on each channel's own order alone, but for give_up(). Where two processes send what one
+// alone is to send, no scan of theirs is evaluated.
 class ScanCollector {
  public:
   void take(const scan_t& state);
@@ -57,11 +59,15 @@ class ScanCollector {
   OpenScan* find(std::int64_t scan_id);
   OpenScan* find_or_open(std::int64_t scan_id, std::int64_t run_id);  // nullptr: is answered
   void refuse_older_runs(std::int64_t run_id);
+  void watch_senders(const scan_t& state);
+  void refuse(OpenScan& scan, std::int16_t code);
   void take_end_of_previous(const scan_t& state);
   CollectedScan close(OpenScan& scan);
 
   std::deque<OpenScan> open_;          // in the order in which they were heard of
   std::deque<std::int64_t> answered_;  // newest last
+  std::int64_t newest_run_ = 0;        // of the newest SCAN
+  SenderWatch senders_{10};            // of SCAN: 2 s at 5 Hz
   std::int64_t lost_ = 0;
 };
 

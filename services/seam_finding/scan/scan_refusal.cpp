@@ -37,6 +37,12 @@ std::string to_words(std::int16_t code, const std::string& detail) {
       return "the scan has more points than memory is kept for: scan less, or thin it out";
     case seam_t::CAMERA_LOST:
       return "the camera was lost in the background scan: scan again";
+    case seam_t::CLOCKS_DIFFER:
+      return "the clocks of the hosts that stamp images and positions differ by " + detail +
+             ": let both follow one source, by chrony or PTP, wait two minutes, scan again";
+    case seam_t::TWO_SENDERS:
+      return "two senders: of sensor_capture, extraction, reconstruction or robot_pose two do the "
+             "same work, or a stranger sends: see 'arcstart monitor', end one, scan again";
     case seam_t::NO_PROFILES:
       return "chain dead: no profile for " + detail +
              " s after the scan's end: see the STATUS of extraction, reconstruction and robot_pose";

@@ -15,7 +15,8 @@ struct ScanRefusal {
 };
 
 // detail: where stripes are missing, how many and for what ("20 of 60 stripes are missing: 20
-// images with too much light; "); of NO_PROFILES and SENSOR_CAPTURE_SILENT the seconds waited.
+// images with too much light; "); of NO_PROFILES and SENSOR_CAPTURE_SILENT the seconds waited, of
+// CLOCKS_DIFFER by how much.
 ScanRefusal refuse_scan(std::int16_t code, const std::string& detail = "");
 
 }  // namespace arcstart::seam_finding

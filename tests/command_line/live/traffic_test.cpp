@@ -122,6 +122,35 @@ TEST_CASE("states are shown, and nothing unprintable reaches the terminal") {
   CHECK(std::count(table.begin(), table.end(), '\n') == 4);
 }
 
+TEST_CASE("two senders of one channel are shown, a message that comes twice is not a gap") {
+  Traffic traffic;
+  std::int64_t seq = 0;
+  const auto take = [&](std::int64_t run_id) {
+    traffic.take("ROBOT0_POSE", bytes_of(position(1, run_id, ++seq)), 1);
+  };
+  take(100);
+  take(100);
+  traffic.take("ROBOT0_POSE", bytes_of(position(1, 100, seq)), 1);
+  CHECK_FALSE(line(traffic.json(2, 2), "ROBOT0_POSE").contains("state"));
+  take(200);
+  take(100);
+  CHECK_THAT(line(traffic.json(2, 2), "ROBOT0_POSE")["state"].get<std::string>(),
+             Contains("two senders: runs 100 and 200"));
+}
+
+TEST_CASE("the preview tells whether the laser is on") {
+  Traffic traffic;
+  image_t preview{};
+  preview.utime = preview.run_id = 1;
+  preview.scan_index = -1;
+  preview.incomplete = "only its header matters here";
+  traffic.take("LASER0_PREVIEW", bytes_of(preview), 1);
+  CHECK(line(traffic.json(2, 2), "LASER0_PREVIEW")["state"] == "laser off");
+  preview.laser_on = 1;
+  traffic.take("LASER0_PREVIEW", bytes_of(preview), 2);
+  CHECK(line(traffic.json(2, 2), "LASER0_PREVIEW")["state"] == "laser on");
+}
+
 TEST_CASE("a sender of the version before is named as such") {
   Traffic traffic;
   std::vector<std::uint8_t> former(300, 0);

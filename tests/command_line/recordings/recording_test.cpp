@@ -58,6 +58,21 @@ TEST_CASE("the earliest stage that was recorded is fed, and nothing derived from
     CHECK(count(recording, "LASER0_IMAGE") == 92);
     CHECK(count(recording, "ROBOT0_POSE") == 650);
   }
+  SECTION("with what tells of a scan's end outside it, once") {
+    recorded.images = true;
+    Events events = record(recorded);
+    for (const std::string channel : {"LASER0_IMAGE", "LASER0_PROFILE"}) {
+      const auto last = std::find_if(events.rbegin(), events.rend(),
+                                     [&](const auto& event) { return event.channel == channel; });
+      RecordedEvent end = *last;
+      std::fill(end.bytes.begin() + 32, end.bytes.begin() + 40, 0);  // its scan_id
+      end.bytes[31] += 1;                                            // its seq
+      events.push_back(end);
+    }
+    const Recording recording({folder.save("a.lcm", events)}, "", "");
+    CHECK(count(recording, "LASER0_IMAGE") == 93);
+    CHECK(count(recording, "LASER0_PROFILE") == 0);
+  }
   SECTION("previews alone are no images") {
     Events events = record(recorded);
     events[100].channel = "LASER0_PREVIEW";

@@ -1,7 +1,6 @@
 // The bus over real multicast; run under scripts/in-private-network.
 #include <arpa/inet.h>
 #include <sys/socket.h>
-#include <unistd.h>
 
 #include <catch2/catch.hpp>
 
@@ -36,14 +35,14 @@ bool handle_until(Bus& bus, Condition condition) {
 }
 
 void send_datagram(const std::vector<std::uint8_t>& bytes) {
-  const int out = socket(AF_INET, SOCK_DGRAM, 0);
+  static const int out =
+      socket(AF_INET, SOCK_DGRAM, 0);  // one: fragments go by their sender's port
   sockaddr_in group{};
   group.sin_family = AF_INET;
   group.sin_port = htons(7667);
   inet_pton(AF_INET, "239.255.76.67", &group.sin_addr);
   sendto(out, bytes.data(), bytes.size(), 0, reinterpret_cast<const sockaddr*>(&group),
          sizeof group);
-  close(out);
 }
 
 }  // namespace
@@ -95,6 +94,48 @@ TEST_CASE("a port of its own carries the images alone") {
   CHECK(handle_until(whole, [&] { return images == 1 && poses == 1; }));
   without.handle(50ms);
   CHECK(others == 0);
+}
+
+TEST_CASE("an image of which fragments came twice and others never is dropped") {
+  // liblcm counts fragments, not which, and hands out what an earlier message left in its place.
+  Bus bus{BusSettings{}};
+  int images = 0;
+  bus.subscribe<image_t>("LASER0_IMAGE", Queue::images(), [&](const image_t&) { ++images; });
+  bus.handle(50ms);
+  constexpr std::size_t kFragment = 64'000;
+  const auto send_fragments = [&](const image_t& sent, std::uint32_t number, bool whole) {
+    std::vector<std::uint8_t> message(static_cast<std::size_t>(sent.getEncodedSize()));
+    sent.encode(message.data(), 0, static_cast<int>(message.size()));
+    const std::size_t count = (message.size() + kFragment - 1) / kFragment;
+    for (std::size_t i = 0; i < count; ++i) {
+      // Of the broken one the second half is left out, and the first sent twice in its place.
+      const std::size_t fragment = whole || i < count / 2 ? i : i - count / 2 + 1;
+      std::vector<std::uint8_t> bytes = {'L', 'C', '0', '3'};
+      const auto add = [&](std::size_t value, int size) {
+        while (size-- > 0) bytes.push_back(static_cast<std::uint8_t>(value >> (8 * size)));
+      };
+      add(number, 4);
+      add(message.size(), 4);
+      add(fragment * kFragment, 4);
+      add(fragment, 2);
+      add(count, 2);
+      if (fragment == 0)
+        for (const char character : std::string("LASER0_IMAGE") + '\0')
+          bytes.push_back(static_cast<std::uint8_t>(character));
+      const std::size_t end = std::min(message.size(), (fragment + 1) * kFragment);
+      bytes.insert(bytes.end(), message.begin() + static_cast<std::ptrdiff_t>(fragment * kFragment),
+                   message.begin() + static_cast<std::ptrdiff_t>(end));
+      send_datagram(bytes);
+    }
+  };
+  send_fragments(image(1), 1, true);
+  CHECK(handle_until(bus, [&] { return images == 1; }));
+  send_fragments(image(2), 2, false);
+  CHECK(handle_until(bus, [&] { return bus.undecodable() == 1; }));
+  CHECK(images == 1);
+  CHECK_THAT(bus.last_error(), Catch::Contains("CRC-32C"));
+  send_fragments(image(3), 3, true);
+  CHECK(handle_until(bus, [&] { return images == 2; }));
 }
 
 TEST_CASE("hostile datagrams are counted and survived") {

@@ -87,6 +87,7 @@ TEST_CASE("hostile counts and string lengths never crash a decoder") {
   attack(capture);
   attack(service_status_t{});
   attack(cell_command_t{});
+  attack(clock_probe_t{});
   attack(truth_t{});
 }
 
@@ -126,6 +127,7 @@ TEST_CASE("types have the fingerprints that recordings rely on") {
                                VALUE(camera_command_t, LASER_AS_CONFIGURED));
   line(cell_command_t{}, VALUE(cell_command_t, KEEP) + VALUE(cell_command_t, BACKGROUND) +
                              VALUE(cell_command_t, WORKPIECE) + VALUE(cell_command_t, PLATE));
+  line(clock_probe_t{}, "");
   line(image_t{}, VALUE(image_t, MONO8) + VALUE(image_t, PNG) + VALUE(image_t, MONO16) +
                       VALUE(image_t, BAYER_RG8) + VALUE(image_t, BAYER_GR8) +
                       VALUE(image_t, BAYER_GB8) + VALUE(image_t, BAYER_BG8));
@@ -171,12 +173,13 @@ TEST_CASE("types have the fingerprints that recordings rely on") {
            VALUE(seam_t, WRONG_ANGLE_AT_SEAM) + VALUE(seam_t, NOT_CONVEX) +
            VALUE(seam_t, NOT_CONCAVE) + VALUE(seam_t, LAP_NOT_WANTED) + VALUE(seam_t, WRONG_STEP) +
            VALUE(seam_t, GROOVE_NOT_WANTED) + VALUE(seam_t, BUTT_NOT_WANTED) +
-           VALUE(seam_t, WRONG_GROOVE_ANGLE) + VALUE(seam_t, GAP_TOO_WIDE) + VALUE(seam_t, STOP) +
-           VALUE(seam_t, CAMERA_LOST) + VALUE(seam_t, NO_PROFILES) +
-           VALUE(seam_t, SENSOR_CAPTURE_SILENT) + VALUE(seam_t, USABLE) +
-           VALUE(seam_t, START_NOT_SEEN) + VALUE(seam_t, START_UNSURE) +
-           VALUE(seam_t, END_NOT_SEEN) + VALUE(seam_t, END_UNSURE) + VALUE(seam_t, CONTRADICTED) +
-           VALUE(seam_t, CALIBRATION_FAILED) + VALUE(seam_t, CLOCKS_APART));
+           VALUE(seam_t, WRONG_GROOVE_ANGLE) + VALUE(seam_t, GAP_TOO_WIDE) +
+           VALUE(seam_t, CLOCKS_DIFFER) + VALUE(seam_t, STOP) + VALUE(seam_t, CAMERA_LOST) +
+           VALUE(seam_t, NO_PROFILES) + VALUE(seam_t, SENSOR_CAPTURE_SILENT) +
+           VALUE(seam_t, TWO_SENDERS) + VALUE(seam_t, USABLE) + VALUE(seam_t, START_NOT_SEEN) +
+           VALUE(seam_t, START_UNSURE) + VALUE(seam_t, END_NOT_SEEN) + VALUE(seam_t, END_UNSURE) +
+           VALUE(seam_t, CONTRADICTED) + VALUE(seam_t, CALIBRATION_FAILED) +
+           VALUE(seam_t, CLOCKS_APART));
   line(service_status_t{}, VALUE(service_status_t, STARTING) + VALUE(service_status_t, RUNNING) +
                                VALUE(service_status_t, DEGRADED) + VALUE(service_status_t, FAULT) +
                                VALUE(service_status_t, STOPPING));

@@ -165,6 +165,23 @@ TEST_CASE("a refusal has its code, and nothing else has one") {
   CHECK_THAT(meaning_error(seam), Catch::Contains("checked"));
 }
 
+TEST_CASE("a clock probe is a question, or an answer with its stamps") {
+  clock_probe_t probe{};
+  probe.robot = "ROBOT0";
+  probe.asker_run_id = probe.asked_utime = 5;
+  CHECK(meaning_error(probe).empty());
+  probe.answerer_run_id = 6;
+  CHECK_THAT(meaning_error(probe), Catch::Contains("stamps"));
+  probe.heard_utime = 100;
+  probe.answered_utime = 101;
+  CHECK(meaning_error(probe).empty());
+  probe.answered_utime = 99;
+  CHECK_FALSE(meaning_error(probe).empty());
+  probe.answered_utime = 101;
+  probe.asked_utime = 0;
+  CHECK_FALSE(meaning_error(probe).empty());
+}
+
 TEST_CASE("a camera command's region and frame rate hold together") {
   camera_command_t command{};
   command.utime = command.command_id = 1;

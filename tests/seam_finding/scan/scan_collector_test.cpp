@@ -121,6 +121,28 @@ TEST_CASE("no order between the channels makes a difference") {
   }
 }
 
+TEST_CASE("what is lost at a scan's end, or all of it, is counted when its end comes by") {
+  // As sensor_capture sends it after the last image, and the chain carries it on.
+  const ScanMessages messages = scan_of(10);
+  profile_t end = messages.profiles.back();
+  end.scan_id = 0;
+  end.scan_index = -1;
+  ++end.seq;
+  for (const std::size_t lost : {std::size_t{1}, std::size_t{10}}) {
+    ScanCollector collector;
+    collector.take(messages.scanning);
+    for (std::size_t i = 0; i + lost < 10; ++i) collector.take(messages.profiles[i]);
+    collector.take(messages.ended);
+    CHECK_FALSE(collector.next());
+    collector.take(end);
+    const auto scan = collector.next();
+    REQUIRE(scan);
+    CHECK(scan->refusal.empty());
+    CHECK(scan->profiles_lost == static_cast<int>(lost));
+    CHECK(collector.lost() == static_cast<std::int64_t>(lost));
+  }
+}
+
 TEST_CASE("a scan is given once, however often its end is told") {
   ScanCollector collector;
   const ScanMessages messages = scan_of(5);
@@ -165,6 +187,56 @@ TEST_CASE("a restarted sensor_capture ends the scan with the same refusal, in an
     CHECK(scans[1].refusal.empty());
     CHECK(scans[1].profiles.size() == 6);
   }
+}
+
+TEST_CASE("two profiles of one seq that differ refuse the scan, equal ones do not") {
+  for (const bool differ : {false, true}) {
+    ScanCollector collector;
+    const ScanMessages messages = scan_of(10);
+    profile_t other = messages.profiles[4];
+    if (differ) other.tool_position[0] += 30;
+    collector.take(messages.scanning);
+    for (const auto& profile : messages.profiles) {
+      if (profile.seq == other.seq) collector.take(other);
+      collector.take(profile);
+    }
+    collector.take(messages.ended);
+    const auto scan = collector.next();
+    REQUIRE(scan);
+    CHECK(scan->refusal.code == (differ ? seam_t::TWO_SENDERS : 0));
+    CHECK(scan->profiles.size() == (differ ? 0 : 10));
+    CHECK(scan->profiles_lost == 0);
+  }
+}
+
+TEST_CASE("two sensor_captures refuse each other's scans, and the next is heard when one is gone") {
+  ScanCollector collector;
+  const ScanMessages messages = scan_of(6);
+  scan_t other = idle_state(messages.scanning.run_id + GENERATE(-1, 1) * kOneSecond);
+  collector.take(messages.scanning);
+  for (const auto& profile : messages.profiles) collector.take(profile);
+  collector.take(other);
+  CHECK_FALSE(collector.next());
+  scan_t scanning = messages.scanning;
+  scanning.utime += 200'000;
+  collector.take(scanning);
+  const auto scan = collector.next();
+  REQUIRE(scan);
+  CHECK(scan->refusal.code == seam_t::TWO_SENDERS);
+  CHECK(scan->state.scan_id == messages.scanning.scan_id);
+
+  scan_t idle = idle_state(messages.scanning.run_id);
+  for (int i = 0; i < 10; ++i) {
+    idle.utime += 200'000;
+    collector.take(idle);
+  }
+  const ScanMessages next = scan_of(6, {.scan_id = messages.scanning.scan_id + 60 * kOneSecond});
+  collector.take(next.scanning);
+  for (const auto& profile : next.profiles) collector.take(profile);
+  collector.take(next.ended);
+  const auto answered = collector.next();
+  REQUIRE(answered);
+  CHECK(answered->refusal.empty());
 }
 
 TEST_CASE("a scan that had ended before the restart is answered when its profiles come") {

@@ -197,8 +197,20 @@ TEST_CASE("a background must be complete") {
     CHECK_THAT(background_error(scans.empty).words, Catch::Contains("camera was lost"));
   }
   SECTION("not without points") {
-    scans.empty.profiles.clear();
-    CHECK_THAT(background_error(scans.empty).words, Catch::Contains("no points"));
+    for (auto& profile : scans.empty.profiles) without_points(profile, profile_t::NO_STRIPE);
+    CHECK_THAT(background_error(scans.empty).words, Catch::Contains("is the laser on"));
+  }
+  SECTION("images that never came say nothing of the laser") {
+    if (GENERATE(true, false)) {
+      for (auto& profile : scans.empty.profiles)
+        without_points(profile, profile_t::INCOMPLETE_IMAGE);
+      scans.empty.state.lost = scans.empty.state.images;
+    } else {
+      scans.lose(scans.empty, 0, scans.empty.profiles.size());
+    }
+    CHECK(background_error(scans.empty).code == seam_t::BACKGROUND_INCOMPLETE);
+    CHECK_THAT(background_error(scans.empty).words,
+               Catch::Contains("lost") && !Catch::Contains("is the laser on"));
   }
   const ScanRefusal error = background_error(scans.empty);
   const seam_t receipt = answer_background(scans.empty, error);

@@ -63,6 +63,43 @@ TEST_CASE("sensor_capture: camera commands give way to scans, and are refused wh
   }
 }
 
+TEST_CASE("sensor_capture: the laser stays on for a command only while that is repeated") {
+  ScriptedCell cell;
+  cell.find_camera();
+  CHECK(cell.app->health().notice == "laser off");
+  cell.camera_command(31, 10'000, camera_command_t::LASER_ON);
+  CHECK(cell.laser_asked());
+  cell.answer();
+  CHECK(cell.app->health().notice == "laser on for camera command 31");
+  for (const std::int64_t begin = steady_now(); steady_now() - begin < 1'500'000;) {
+    std::this_thread::sleep_for(std::chrono::milliseconds(200));
+    cell.camera_command(31, 10'000, camera_command_t::LASER_ON);
+    CHECK(cell.laser_asked());
+  }
+  std::this_thread::sleep_for(std::chrono::milliseconds(1'050));
+  cell.step();
+  CHECK_FALSE(cell.laser_asked());
+  CHECK(cell.app->health().notice == "laser goes off");
+  cell.answer();
+  CHECK(cell.app->health().notice == "laser off");
+  cell.camera_command(31, 10'000, camera_command_t::LASER_ON);  // it has ended
+  CHECK_FALSE(cell.laser_asked());
+}
+
+TEST_CASE("sensor_capture: a command that lights the laser once lights it for a second") {
+  ScriptedCell cell;
+  cell.find_camera();
+  cell.camera_command(31, 10'000, camera_command_t::LASER_ON);
+  cell.camera_command(33, 10'000, camera_command_t::LASER_OFF);  // dark, it needs nobody
+  CHECK_FALSE(cell.laser_asked());
+  cell.camera_command(34, 10'000, camera_command_t::LASER_ON);
+  CHECK(cell.laser_asked());
+  std::this_thread::sleep_for(std::chrono::milliseconds(1'050));
+  cell.step();
+  CHECK_FALSE(cell.laser_asked());
+  CHECK(cell.script.requests.back().second == CameraSettings{kScriptedExposure, 0, false});
+}
+
 TEST_CASE("sensor_capture: settings that the camera cannot do end the command") {
   ScriptedCell cell;
   cell.find_camera();

@@ -48,6 +48,7 @@ struct ScriptedCell {
   Script script;
   SensorCaptureSettings settings;
   std::vector<image_t> images, previews;
+  std::vector<image_t> ends;  // that only tell that a scan has ended
   std::vector<scan_t> scans;
   std::vector<std::string> order;  // of channels
   std::unique_ptr<SensorCaptureApp> app;
@@ -63,7 +64,12 @@ struct ScriptedCell {
         order.push_back(name);
       };
     };
-    bus->subscribe<image_t>("LASER0_IMAGE", Queue::images(), keep(images, "image"));
+    bus->subscribe<image_t>("LASER0_IMAGE", Queue::images(),
+                            [keep_image = keep(images, "image"), this](const image_t& image) {
+                              if (image.scan_id == 0 && image.command_id == 0)
+                                return ends.push_back(image);
+                              keep_image(image);
+                            });
     bus->subscribe<image_t>("LASER0_PREVIEW", Queue::images(), keep(previews, "preview"));
     bus->subscribe<scan_t>("LASER0_SCAN", Queue::measurements(), keep(scans, "scan"));
     app = std::make_unique<SensorCaptureApp>(*bus, settings, Instance{}, 55,
