@@ -5,6 +5,7 @@
 #include <string>
 #include <vector>
 
+#include "services/extraction/image/laser_light.hpp"
 #include "services/extraction/stripe_extractor.hpp"
 #include "tests/bench/extraction/extraction_bench.hpp"
 #include "tests/extraction/support/scene_score.hpp"
@@ -63,10 +64,13 @@ void bench_steel(SteelSceneKind kind, int first_seed, int seeds, nlohmann::json&
     SteelTotals totals;
     for (int seed = first_seed; seed < first_seed + seeds; ++seed) {
       const SteelScene scene = render_steel_scene(kind, static_cast<std::uint64_t>(seed));
-      const cv::Mat grey = difference ? scene.lit.grey - scene.unlit : scene.lit.grey;
+      std::vector<std::uint8_t> light;
+      const GreyImage grey = difference
+                                 ? laser_light(view_of(scene.lit.grey), view_of(scene.unlit), light)
+                                 : view_of(scene.lit.grey);
       std::string remark;
       StripeExtractor extractor{ExtractionSettings{}};
-      add(scene, extractor.extract(view_of(grey)), totals, remark);
+      add(scene, extractor.extract(grey), totals, remark);
       fmt::print("  {} seed {}: {}\n", row, seed, remark);
       std::fflush(stdout);
     }
