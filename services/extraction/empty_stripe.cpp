@@ -9,6 +9,7 @@ std::string to_words(EmptyStripe why, const std::string& detail) {
     case EmptyStripe::kNoStripe:
       return "no stripe found";
     case EmptyStripe::kTooMuchLight:
+      if (detail.empty()) return "the surface is full of lines, and none stands out as the stripe";
       return "more than " + detail + " ridge points, too many to tell a stripe from";
     case EmptyStripe::kIncompleteImage:
       return "image incomplete: " + detail;

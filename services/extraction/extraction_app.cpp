@@ -5,6 +5,7 @@
 #include <utility>
 
 #include "services/extraction/files/image_decoding.hpp"
+#include "services/extraction/image/laser_light.hpp"
 
 namespace arcstart::extraction {
 
@@ -29,6 +30,9 @@ constexpr std::int64_t kMostLost = 20'000;
 cv::Mat view(const GreyImage& grey) {
   return {grey.height, grey.width, CV_8U, const_cast<std::uint8_t*>(grey.data),
           static_cast<std::size_t>(grey.stride)};
+}
+GreyImage view(const cv::Mat& grey) {
+  return {grey.data, grey.cols, grey.rows, static_cast<std::ptrdiff_t>(grey.step)};
 }
 
 }  // namespace
@@ -121,18 +125,15 @@ void ExtractionApp::keep_laser_off(const image_t& image, const GreyImage& grey) 
 }
 
 // Where the camera takes images with the laser on and off by turns, the one before shows what else
-// lights the scene: taken of the same region in the same way, it is subtracted (not below 0).
+// lights the scene: taken of the same region in the same way, it is subtracted.
 GreyImage ExtractionApp::without_ambient_light(const image_t& image, const GreyImage& grey) {
-  const cv::Mat lit = view(grey);
-  const bool fits =
-      laser_off_grey_.size() == lit.size() && laser_off_.run_id == image.run_id &&
-      laser_off_.scan_id == image.scan_id && laser_off_.seq == image.seq - 1 &&
-      laser_off_.offset_u == image.offset_u && laser_off_.offset_v == image.offset_v &&
-      laser_off_.exposure_us == image.exposure_us && laser_off_.gain_db == image.gain_db;
-  if (!fits) return grey;
-  cv::subtract(lit, laser_off_grey_, difference_);
-  return {difference_.data, difference_.cols, difference_.rows,
-          static_cast<std::ptrdiff_t>(difference_.step)};
+  const bool fits = laser_off_grey_.cols == grey.width && laser_off_grey_.rows == grey.height &&
+                    laser_off_.run_id == image.run_id && laser_off_.scan_id == image.scan_id &&
+                    laser_off_.seq == image.seq - 1 && laser_off_.offset_u == image.offset_u &&
+                    laser_off_.offset_v == image.offset_v &&
+                    laser_off_.exposure_us == image.exposure_us &&
+                    laser_off_.gain_db == image.gain_db;
+  return fits ? laser_light(grey, view(laser_off_grey_), difference_) : grey;
 }
 
 stripe_t ExtractionApp::stripe_of(const image_t& image) {

@@ -8,6 +8,7 @@
 #include <cstdint>
 #include <opencv2/core.hpp>
 #include <string>
+#include <vector>
 
 #include "common/bus/bus.hpp"
 #include "common/service.hpp"
@@ -34,7 +35,8 @@ class ExtractionApp : public App {
   Bus& bus_;
   std::string stripe_channel_;
   StripeExtractor extractor_;
-  cv::Mat decoded_, difference_;
+  cv::Mat decoded_;
+  std::vector<std::uint8_t> difference_;
   Stripe stripe_;
   Health health_;
 

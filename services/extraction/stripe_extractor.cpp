@@ -16,9 +16,6 @@ namespace {
 // a line along it.
 constexpr int kBorder = 2;
 constexpr double kLeastSigma = 1.2, kLargestSigma = 12;  // px, followed
-constexpr double kFirstLook = 2.5, kSecondLook = 6;      // px, where no scale is known
-constexpr double kLargestOfFirst = 4.5;  // px; a sigma wanted above it the first look cannot judge
-constexpr double kWidestWhite = 4;       // px; nor a stripe with a white top wider than this
 constexpr double kSigmaStep = 1.0 / 32;  // px, of the sigma followed: kernels need not be made anew
 constexpr double kFollowing = 0.2;       // share of the difference taken up by each image
 // Of centres by speckle, in sigma: of a contrast of 0.3 it is 0.08 to 0.12.
@@ -28,13 +25,9 @@ constexpr double kMostScatter = 0.15;
 // image holds up to 50, and 20 in chains. An image of more points is refused, since nothing can be
 // told from it; of more in chains the strongest chains are kept.
 constexpr int kMostPoints = 96, kMostChainPoints = 24;
-constexpr double kNearEnough = 0.1;  // share of sigma that makes no difference
 // Standard deviation of a second derivative under white noise is 0.2443 noise / sigma^3 (3 / (16
 // pi), rooted); what starts a segment stands out from it by eight times.
 constexpr double kNoiseCurvature = 8 * 0.2443;
-
-// px: the image's columns or rows, whichever are more.
-int lines_of(const GreyImage& image) { return std::max(image.width, image.height); }
 
 double median(FrameVector<float>& values) {
   if (values.empty()) return 0;
@@ -46,11 +39,12 @@ double median(FrameVector<float>& values) {
 }  // namespace
 
 double StripeExtractor::strong_curvature(double sigma) const {
-  return std::max(settings_.least_strength / strength_factor(sigma, settings_.strength_exponent),
+  return std::max(std::max(settings_.least_strength, least_strength_) /
+                      strength_factor(sigma, settings_.strength_exponent),
                   kNoiseCurvature * noise_ / (sigma * sigma * sigma));
 }
 
-bool StripeExtractor::look_at(const GreyImage& image, double sigma) {
+void StripeExtractor::find_lines(const GreyImage& image, double sigma) {
   chains_.clear();
   selection_.branches.clear();
   memory_.take_back();
@@ -58,30 +52,38 @@ bool StripeExtractor::look_at(const GreyImage& image, double sigma) {
   used_sigma_ = sigma;
   const double strong = strong_curvature(sigma);
   crowded_ = !detector_.detect_lines(image, kernels_, settings_.weakest_share * strong, strong,
-                                     border(), points_, kMostPoints * lines_of(image));
-  linker_.link(points_, {strong, settings_.fewest_centres, kMostChainPoints * lines_of(image)},
-               chains_, &memory_);
+                                     border(), points_, kMostPoints * lines_);
+  linker_.link(points_, {strong, settings_.fewest_centres, kMostChainPoints * lines_}, chains_,
+               &memory_);
+}
+
+void StripeExtractor::choose_course(const GreyImage& image) {
   widths_.assign(points_.size(), 0);
   for (const Chain& chain : chains_)
-    measure_widths(image, points_, chain, sigma, noise_, widths_, &memory_);
+    measure_widths(image, points_, chain, sigma_of(chain.front()), noise_, widths_, &memory_);
   StripePathSettings selection;
   selection.longest_hole = settings_.longest_hole_px;
   selection.fewest_points = settings_.fewest_centres;
   selection.width = image.width;
   selection.height = image.height;
   selection.margin = border();
-  selection.junction_reach = 3 * sigma;
-  selector_.select(points_, chains_, widths_, selection, selection_, &memory_);
+  selection.along_rows = along_rows_;
+  selection.junction_reach = 3 * used_sigma_;
+  // Where widths differ along the stripe they tell nothing of what belongs to it.
+  if (mixed_) no_widths_.assign(points_.size(), 0);
+  selector_.select(points_, chains_, mixed_ ? no_widths_ : widths_, selection, selection_,
+                   &memory_);
+  if (along_rows_) drop_texture();
+}
+
+bool StripeExtractor::look_at(const GreyImage& image, double sigma) {
+  find_lines(image, sigma);
+  choose_course(image);
   return !crowded_ && !linker_.left_out();
 }
 
-double StripeExtractor::chosen_strength() const {
-  const double factor = strength_factor(used_sigma_, settings_.strength_exponent);
-  double sum = 0;
-  for (const Branch& branch : selection_.branches)
-    if (branch.chosen)
-      for (const int i : branch.points) sum += factor * points_[i].curvature;
-  return sum;
+double StripeExtractor::sigma_of(int point) const {
+  return mixed_ ? merged_.sigmas[static_cast<std::size_t>(point)] : used_sigma_;
 }
 
 double StripeExtractor::wanted_sigma() {
@@ -92,34 +94,6 @@ double StripeExtractor::wanted_sigma() {
         if (widths_[i] > 0) widths.push_back(widths_[i]);
   if (static_cast<int>(widths.size()) < settings_.fewest_centres) return 0;
   return std::clamp(settings_.sigma_per_width * median(widths), kLeastSigma, kLargestSigma);
-}
-
-// A look at a small sigma tells the stripe's width, unless that is a wide one, of which it sees the
-// sides, or whose white top has nothing to see for it. In doubt a look at a large sigma follows; of
-// both the stronger is right, for strength is largest where sigma is the stripe's own width
-// (ridge.hpp).
-void StripeExtractor::find_scale(const GreyImage& image) {
-  const auto fits = [](double wanted, double sigma) {
-    return std::abs(wanted - sigma) < kNearEnough * sigma;
-  };
-  if (!look_at(image, kFirstLook)) return;
-  int corrected = 0;
-  const double first = wanted_sigma();
-  if (first == 0 || first > kLargestOfFirst || white_width(image) > kWidestWhite) {
-    const double strength = chosen_strength();
-    if (!look_at(image, kSecondLook)) return;
-    if (strength > chosen_strength()) {
-      corrected = fits(first, kFirstLook) ? 0 : 1;
-      if (!look_at(image, corrected > 0 ? first : kFirstLook)) return;
-    }
-  }
-  for (; corrected < 3; ++corrected) {
-    const double wanted = wanted_sigma();
-    if (wanted == 0) return;
-    if (fits(wanted, used_sigma_)) break;
-    if (!look_at(image, wanted)) return;
-  }
-  if (wanted_sigma() > 0) sigma_ = used_sigma_;
 }
 
 void StripeExtractor::follow_scale() {
@@ -188,17 +162,28 @@ void StripeExtractor::describe(const GreyImage& image, Stripe& stripe) {
 void StripeExtractor::measure(const GreyImage& image) {
   const std::size_t found = points_.size();
   end_deviations_.clear();
-  follow_blunt_ends(image, kernels_, border(), selection_, points_, end_deviations_);
+  if (!mixed_) follow_blunt_ends(image, kernels_, border(), selection_, points_, end_deviations_);
   widths_.resize(points_.size(), 0);
   centres_.clear();
+  const double factor = strength_factor(used_sigma_, settings_.strength_exponent);
   for (std::size_t i = 0; i < points_.size(); ++i) {
     const RidgePoint& p = points_[i];
-    const double by_noise = centre_deviation(p.curvature, used_sigma_, noise_);
+    const double sigma = sigma_of(static_cast<int>(i));
+    const double curvature =
+        mixed_ ? p.curvature * factor / strength_factor(sigma, settings_.strength_exponent)
+               : p.curvature;
+    const double by_noise = centre_deviation(curvature, sigma, noise_);
     const double deviation =
         i < found ? by_noise : std::hypot(by_noise, end_deviations_[i - found]);
-    centres_.push_back({p.u, p.v, static_cast<float>(deviation), static_cast<float>(used_sigma_)});
+    centres_.push_back({p.u, p.v, static_cast<float>(deviation), static_cast<float>(sigma)});
   }
-  scatter_ = centre_noise(selection_.branches, centres_, used_sigma_, &memory_);
+  double widest = used_sigma_;
+  if (mixed_)
+    for (const Branch& branch : selection_.branches)
+      if (branch.chosen)
+        for (const int i : branch.points) widest = std::max(widest, sigma_of(i));
+  scatter_ = centre_noise(selection_.branches, centres_, widest, &memory_);
+  if (mixed_) return;
   if (settings_.sigma_px != 0 || !settings_.smooth_course) return;
   const double share = settings_.measuring_sigma_per_width / settings_.sigma_per_width;
   const double sigma =
@@ -229,24 +214,36 @@ int StripeExtractor::border() const {
   return settings_.smooth_course ? kBorder : RidgeDetector::margin(kernels_);
 }
 
+// At the scale of the images before; a surface full of lines that has come into view is searched.
+void StripeExtractor::follow(const GreyImage& image) {
+  find_lines(image, std::round(sigma_ / kSigmaStep) * kSigmaStep);
+  if (!along_rows_ && in_texture())
+    find_scale_in_texture(image);
+  else
+    choose_course(image);
+}
+
 void StripeExtractor::extract(const GreyImage& image, Stripe& stripe) {
   noise_ = noise_of(image);
+  refused_ = false;
+  lines_ = std::max(image.width, image.height);
   const bool follows = settings_.sigma_px == 0;
   if (!follows)
     look_at(image, settings_.sigma_px);
   else if (sigma_ == 0)
     find_scale(image);
+  else if (mixed_)
+    look_at_all_scales(image);
   else
-    look_at(image, std::round(sigma_ / kSigmaStep) * kSigmaStep);
+    follow(image);
   measure(image);
   describe(image, stripe);
   if (settings_.smooth_course) refine_segment_ends(image, stripe.centres);
   stripe.why = !stripe.centres.empty() ? EmptyStripe::kNone
-               : crowded_              ? EmptyStripe::kTooMuchLight
+               : crowded_ || refused_  ? EmptyStripe::kTooMuchLight
                                        : EmptyStripe::kNoStripe;
-  stripe.empty =
-      to_words(stripe.why, crowded_ ? std::to_string(kMostPoints * lines_of(image)) : "");
-  if (follows && sigma_ > 0) follow_scale();
+  stripe.empty = to_words(stripe.why, crowded_ ? std::to_string(kMostPoints * lines_) : "");
+  if (follows && sigma_ > 0 && !mixed_) follow_scale();
 }
 
 }  // namespace arcstart::extraction

@@ -288,6 +288,25 @@ TEST_CASE("where the laser is on and off by turns, the image before is subtracte
   CHECK(far_from_stripe(cell.answer(longer)) > 280);
 }
 
+TEST_CASE("clipping is judged before the unlit image is subtracted") {
+  // A bright plate leaves the laser 75 grey values: the difference's top is flat, and not white.
+  cv::Mat lit = darkness(320, 160, 180), unlit = lit.clone();
+  add_stripe(lit, -10, 60, 330, 77, 200, 3);
+  lit(cv::Rect(0, 120, 320, 20)) += 200;  // by the lamp alone
+  unlit(cv::Rect(0, 120, 320, 20)) += 200;
+  Cell cell;
+  image_t off = Cell::image(expose(unlit, 1, 1), 0);
+  off.laser_on = 0;
+  cell.answer(off);
+  const stripe_t& stripe = cell.answer(Cell::image(expose(lit, 1, 2), 1));
+  CHECK(stripe.count > 280);
+  CHECK(stripe.saturated_share > 0.9);
+  for (int i = 0; i < stripe.count; ++i) {
+    if (stripe.rank[i] != stripe_t::CHOSEN) continue;
+    CHECK(std::abs(stripe.v[i] - 60 - 0.05 * (stripe.u[i] + 10)) < 0.5);
+  }
+}
+
 TEST_CASE("sigma begins anew with each scan, and single images leave no trace") {
   Cell cell;
   const cv::Mat narrow = picture(60, 1.5), wide = picture(60, 3.5);

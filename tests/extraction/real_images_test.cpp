@@ -1,10 +1,12 @@
 // Stripes of a real sensor: 9 to 25 px wide, saturated, running down the image.
+#include <algorithm>
 #include <catch2/catch.hpp>
 #include <cmath>
 #include <filesystem>
 
 #include "paths.hpp"
 #include "services/extraction/files/image_file.hpp"
+#include "services/extraction/image/laser_light.hpp"
 #include "services/extraction/stripe_extractor.hpp"
 #include "tests/extraction/support/real_stripes.hpp"
 #include "tests/extraction/support/stripe_image.hpp"
@@ -77,13 +79,38 @@ TEST_CASE("stripe_on_off: with the laser-off image subtracted, one stripe down t
   CHECK_THROWS_AS(read_grey_image((folder / "scene_laser_on.png").string()), ImageFileError);
   const cv::Mat on = read_grey_image((folder / "scene_laser_on.png").string(), "r");
   const cv::Mat off = read_grey_image((folder / "scene_laser_off.png").string(), "r");
-  const cv::Mat difference = on - off;
+  std::vector<std::uint8_t> light;
+  const GreyImage difference = laser_light(view_of(on), view_of(off), light);
   StripeExtractor extractor(ExtractionSettings{});
   int chosen = 0, on_bust = 0;
-  for (const StripeCentre& c : extractor.extract(view_of(difference)).centres) {
+  for (const StripeCentre& c : extractor.extract(difference).centres) {
     chosen += c.chosen;
     on_bust += c.chosen && c.u > 480 && c.u < 600 && c.v > 40 && c.v < 1130;
   }
   CHECK(on_bust > 950);
   CHECK(chosen - on_bust < 60);  // and the line on the plinth's side
+}
+
+TEST_CASE("a bright plate: the clipped channel's centres lie where an unclipped one's do") {
+  const auto folder = data_folder("cases/outside/on_off_bright_plate");
+  if (folder.empty()) return;
+  const auto stripe_in = [&](const char* channel) {
+    const cv::Mat on = read_grey_image((folder / "light0.jpg").string(), channel),
+                  off = read_grey_image((folder / "calib0.jpg").string(), channel);
+    std::vector<std::uint8_t> light;
+    return StripeExtractor(ExtractionSettings{})
+        .extract(laser_light(view_of(on), view_of(off), light));
+  };
+  const Stripe red = stripe_in("r"), green = stripe_in("g");
+  CHECK(red.saturated_share > 0.3);
+  CHECK(green.saturated_share < red.saturated_share / 2);
+  std::vector<double> differences;
+  for (const StripeCentre& a : green.centres)
+    for (const StripeCentre& b : red.centres)
+      if (a.chosen && b.chosen && std::lround(a.u) == std::lround(b.u))
+        differences.push_back(std::abs(a.v - b.v));
+  REQUIRE(differences.size() > 600);
+  const auto middle = differences.begin() + std::ssize(differences) / 2;
+  std::nth_element(differences.begin(), middle, differences.end());
+  CHECK(*middle <= 0.3);
 }

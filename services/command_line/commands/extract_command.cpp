@@ -21,6 +21,7 @@
 #include "services/command_line/output/terminal.hpp"
 #include "services/extraction/files/image_file.hpp"
 #include "services/extraction/files/stripe_picture.hpp"
+#include "services/extraction/image/laser_light.hpp"
 #include "services/extraction/stripe_extractor.hpp"
 
 namespace arcstart::command_line {
@@ -66,7 +67,13 @@ cv::Mat read(const ExtractOptions& options, const std::string& path) {
   if (off.size() != grey.size())
     throw extraction::ImageFileError(fmt::format("{}: {} x {} pixels, {} has {} x {}", options.off,
                                                  off.cols, off.rows, path, grey.cols, grey.rows));
-  return grey - off;  // not below 0
+  const auto view = [](const cv::Mat& mat) {
+    return extraction::GreyImage{mat.data, mat.cols, mat.rows,
+                                 static_cast<std::ptrdiff_t>(mat.step)};
+  };
+  std::vector<std::uint8_t> light;
+  extraction::laser_light(view(grey), view(off), light);
+  return cv::Mat(light, true).reshape(1, grey.rows);
 }
 
 void write_centres(std::ostream& out, const ExtractOptions& options, const std::string& image,
@@ -204,7 +211,9 @@ void add_extract_command(CLI::App& parent, int& exit_code) {
   command.flag("--as-found", options->as_found,
                "Each centre where its own pixel's neighbourhood says, not fitted along the "
                "stripe");
-  command.option("--off", options->off, "The same view with the laser off, to be subtracted")
+  command
+      .option("--off", options->off,
+              "The same view with the laser off, to be subtracted; clipping is judged before")
       .existing_file();
   command
       .option("--channel", options->channel,

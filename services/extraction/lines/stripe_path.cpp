@@ -174,7 +174,7 @@ void Selector::select(const std::vector<RidgePoint>& points, const std::vector<C
     for (const int i : chain)
       across_image += points[i].curvature * (points[i].normal_v * points[i].normal_v -
                                              points[i].normal_u * points[i].normal_u);
-  selection.along_rows = across_image < 0;
+  selection.along_rows = settings.along_rows.value_or(across_image < 0);
   const int lines = selection.along_rows ? settings.height : settings.width;
   Sight sight{selection.along_rows, settings.margin, lines - 1 - settings.margin};
   // A surface that is few pixels long in a coarse image is no scrap, nor less worth to go to.

@@ -2,6 +2,7 @@
 // programming.
 #pragma once
 
+#include <optional>
 #include <vector>
 
 #include "services/extraction/lines/candidates.hpp"
@@ -31,6 +32,8 @@ struct StripePathSettings {
   int longest_hole = 5;                   // columns without a centre that do not yet end a branch
   int fewest_points = 10;                 // of a branch
   int width = 0, height = 0, margin = 0;  // of the image, and of its border without points; px
+  // Whether the stripe runs down the image, where that is known; else what most of the lines do.
+  std::optional<bool> along_rows;
   double junction_reach = 7;  // px within which lines that meet are seen to end: a few sigma
 };
 

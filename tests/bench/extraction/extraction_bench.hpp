@@ -4,6 +4,8 @@
 #include <nlohmann/json.hpp>
 #include <string>
 
+#include "tests/extraction/support/steel_scene.hpp"
+
 namespace arcstart {
 
 // Rendered scenes with exact truth, seeds 1 to `seeds` of each: the extractor as the service runs
@@ -21,6 +23,10 @@ void bench_identity(int seeds, nlohmann::json& json);
 
 // Stripes of a real sensor, without truth: how straight the centres lie, and in how many rows.
 void bench_real_images(nlohmann::json& json);
+
+// Surfaces and surroundings of real steel, rendered with exact truth: in how many images the course
+// is the stripe and nothing else, how far off, and how far off it claims to be.
+void bench_steel(extraction::SteelSceneKind kind, int first_seed, int seeds, nlohmann::json& json);
 
 // The middle of each scene of seed 1 with its centres, FOLDER/<scene>.jpg.
 void draw_scenes(const std::string& folder);
