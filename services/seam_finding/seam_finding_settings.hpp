@@ -81,6 +81,12 @@ struct SeamFindingSettings {
   // The same as a standard deviation: mm along the seam for each mm away from it.
   double edge_slope() const { return edge_squareness_mm / (2 * 100); }
 
+  // What the robot's positions err by in the base's frame, each axis, standard deviation: smoothly
+  // along a scan, so that no stripe shows it. ISO 9283, pose accuracy, of the data sheet or better
+  // measured in the cell. 0: deviations hold in the robot's own coordinates, in which it welds,
+  // too.
+  double robot_accuracy_mm = 0;
+
   // Torch.
   double torch_work_angle_deg = 0;     // between it and the flatter plate; 0: in the middle of both
   double torch_travel_angle_deg = 10;  // leaning back, so that the wire points ahead
@@ -131,6 +137,7 @@ struct SeamFindingSettings {
     visitor("start_points", start_points, between(1, 1000));
     visitor("edge_shortening_px", edge_shortening_px, between(0, 20));
     visitor("edge_squareness_mm", edge_squareness_mm, between(0.01, 5));
+    visitor("robot_accuracy_mm", robot_accuracy_mm, between(0, 5));
     visitor("torch_work_angle_deg", torch_work_angle_deg, between(0, 150));
     visitor("torch_travel_angle_deg", torch_travel_angle_deg, between(-45, 45));
     visitor("approach_mm", approach_mm, between(10, 1000));

@@ -141,4 +141,14 @@ std::optional<SeamAccuracy> seam_accuracy(const ScanCloud& cloud, const Joint& j
   return accuracy;
 }
 
+void add_robot_accuracy(double deviation_mm, SeamResult& seam) {
+  if (deviation_mm == 0 || !seam.accuracy) return;
+  const double variance = deviation_mm * deviation_mm;
+  for (Eigen::Matrix3d* covariance : {&seam.accuracy->start, &seam.accuracy->end})
+    if ((*covariance)(0, 0) >= 0) *covariance += variance * Eigen::Matrix3d::Identity();
+  const double turn = 2 * variance / (seam.end - seam.start).squaredNorm();
+  seam.accuracy->direction = std::sqrt(std::pow(seam.accuracy->direction, 2) + turn);
+  for (double& normal : seam.accuracy->normals) normal = std::sqrt(normal * normal + turn);
+}
+
 }  // namespace arcstart::seam_finding

@@ -21,4 +21,8 @@ std::optional<SeamAccuracy> seam_accuracy(const ScanCloud& cloud, const Joint& j
                                           const std::array<SeamEnd, 2>& ends, const Scales& scales,
                                           const SeamFindingSettings& settings);
 
+// Adds what the robot errs by: standard deviation of its positions, each axis, from end to end of
+// the seam as if they knew nothing of each other; mm.
+void add_robot_accuracy(double deviation_mm, SeamResult& seam);
+
 }  // namespace arcstart::seam_finding

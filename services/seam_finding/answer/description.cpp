@@ -1,6 +1,7 @@
 #include "services/seam_finding/answer/description.hpp"
 
 #include <algorithm>
+#include <cmath>
 #include <utility>
 
 #include "common/geometry.hpp"
@@ -47,6 +48,16 @@ void set_gap(SeamResult& result) {
 
 bool in_one_plane(const Joint& joint) {
   return joint.type == JointType::kButt || joint.type == JointType::kV;
+}
+
+// Between the plates' tops, each carried to the seam's line, out of the first one; mm.
+double height_between(const SeamResult& result) {
+  const Eigen::Vector3d middle = (result.start + result.end) / 2;
+  const Eigen::Vector3d& out = result.normals[0];
+  const auto height = [&](const Plane& top) {
+    return -top.signed_distance(middle) / top.normal.dot(out);
+  };
+  return std::abs(height(result.faces[1].plane) - height(result.faces[0].plane));
 }
 
 // Normals of the two faces between which the torch stands. For parallel plates the second face is
@@ -96,6 +107,7 @@ SeamResult describe(Joint joint, Findings findings, const SeamFindingSettings& s
   const auto& [start, end] = findings.ends;
   result.start = joint.line.at(start.along);
   result.end = joint.line.at(end.along);
+  if (in_one_plane(joint)) result.mismatch = height_between(result);
   result.start_visibility = start.visibility;
   result.end_visibility = end.visibility;
   const auto second = [&joint](const SeamEnd& place) {

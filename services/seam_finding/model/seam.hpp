@@ -79,6 +79,7 @@ struct SeamResult {
   double gap = -1, gap_deviation = -1;  // mean along the seam; of a groove, its width at the top
   double thickness = -1;                // of a lap's upper plate; mm
   double groove_angle = -1;             // included angle of a V-groove; rad
+  double mismatch = -1;  // of a butt joint's or a groove's tops in height, mid-seam; mm
   EndVisibility start_visibility = EndVisibility::kNotDetermined;
   EndVisibility end_visibility = EndVisibility::kNotDetermined;
   SecondPlace start_second, end_second;

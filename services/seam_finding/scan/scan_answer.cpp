@@ -4,6 +4,7 @@
 
 #include <algorithm>
 
+#include "services/seam_finding/answer/accuracy.hpp"
 #include "services/seam_finding/background/surface_background.hpp"
 #include "services/seam_finding/find_seam.hpp"
 #include "services/seam_finding/paper/find_seam_as_in_the_paper.hpp"
@@ -213,6 +214,8 @@ seam_t answer_workpiece(const CollectedScan& scan, const PreparedScan& prepared,
                                 static_cast<std::uint64_t>(scan.state.scan_id));
   if (settings.start_rule == StartRule::kEdges)
     rule(examine(cloud, prepared.thinned, result), result);
+  // Behind the referee, which sees the stripes in the robot's own coordinates.
+  add_robot_accuracy(settings.robot_accuracy_mm, result);
   fill_in(seam, result);
   seam.background_points = static_cast<int>(prepared.segmentation.background.size());
   fill_in_calibration_covariance(seam, scan, calibration);

@@ -29,8 +29,17 @@ std::int8_t visibility_of(EndVisibility visibility) {
   return seam_t::NOT_DETERMINED;
 }
 
-// An end that is not known is named, the start before the end.
+bool contradicted(const SeamResult& result) {
+  return std::any_of(result.remarks.begin(), result.remarks.end(), [](const Reason& remark) {
+    return remark.code == Reason::Code::kStartContradicted ||
+           remark.code == Reason::Code::kEndContradicted;
+  });
+}
+
+// Of ends that are not known the start is named before the end; before both, that the stripes show
+// an end elsewhere.
 std::int16_t usable(const SeamResult& result) {
+  if (contradicted(result)) return seam_t::CONTRADICTED;
   if (result.start_visibility == EndVisibility::kNotDetermined) return seam_t::START_UNSURE;
   if (result.start_visibility != EndVisibility::kSeen) return seam_t::START_NOT_SEEN;
   if (result.end_visibility == EndVisibility::kNotDetermined) return seam_t::END_UNSURE;
@@ -95,7 +104,7 @@ void fill_in(seam_t& seam, const SeamResult& result) {
   seam.gap_deviation = result.gap_deviation;
   seam.thickness = result.thickness;
   seam.groove_angle = result.groove_angle;
-  // Thickness, mismatch and groove angle stay as in empty_seam() until a result has them.
+  seam.mismatch = result.mismatch;
   seam.start_visibility = visibility_of(result.start_visibility);
   seam.end_visibility = visibility_of(result.end_visibility);
   seam.usable = usable(result);

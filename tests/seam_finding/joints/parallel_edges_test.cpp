@@ -60,7 +60,38 @@ TEST_CASE("a groove is one though its tops differ by more than a mismatch may") 
       INFO("seed " << seed << ", raised by " << raised << " mm: " << in_words(result.reason));
       REQUIRE(result.verdict == SeamResult::Verdict::kFound);
       CHECK(result.joint_type == "v");
+      CHECK(std::abs(result.mismatch - 1.8) < 0.1);
     }
+}
+
+TEST_CASE("a butt joint's mismatch is measured whichever plate is higher, along a wedge mid-seam") {
+  for (const double raised : {-0.7, 0.0, 0.7}) {
+    const SeamResult result = find(stepped_butt(1, 0, raised), "butt", 1);
+    INFO("raised by " << raised << " mm: " << in_words(result.reason));
+    REQUIRE(result.verdict == SeamResult::Verdict::kFound);
+    CHECK(std::abs(result.mismatch - std::abs(raised)) < 0.08);
+  }
+  // From 0 at the start to 0.8 mm at the end.
+  Scene wedge = scene_of("butt", 2);
+  const Axes axes(wedge);
+  const double length = (wedge.end - wedge.start).norm();
+  const Eigen::AngleAxisd turn(-0.8 / length, axes.across);
+  Box& second = wedge.boxes[1];
+  const Vector3d from_start = second.T_base_box.translation() - wedge.start;
+  second.T_base_box.translation() = wedge.start + turn * from_start;
+  second.T_base_box.linear() = turn * second.T_base_box.linear();
+  const SeamResult result = find(wedge, "butt", 2);
+  INFO(in_words(result.reason));
+  REQUIRE(result.verdict == SeamResult::Verdict::kFound);
+  CHECK(std::abs(result.mismatch - 0.4) < 0.08);
+}
+
+TEST_CASE("other joints have no mismatch") {
+  for (const std::string joint : {"tee", "lap"}) {
+    const SeamResult result = find(scene_of(joint, 1), joint, 1);
+    REQUIRE(result.verdict == SeamResult::Verdict::kFound);
+    CHECK(result.mismatch == -1);
+  }
 }
 
 TEST_CASE("a groove whose tops differ is no lap", "[figures]") {

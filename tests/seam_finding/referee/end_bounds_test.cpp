@@ -50,6 +50,21 @@ TEST_CASE("ends that stripes cross are known better than their pitch, outward fr
   }
 }
 
+TEST_CASE("a plate beside a gap ends where its edge meets its border, not the seam's line") {
+  constexpr double inset = 10;
+  for (const double slope : {-0.2, 0.2}) {
+    drawn::Plate plate;
+    plate.to_slope = slope;
+    PlateView view = drawn::view_of(plate, {});
+    view.plate.inset = view.begin = inset;
+    const EndBounds bounds = bounds_of(view, SeamSide::kEnd, 100, kPitch);
+    INFO("slope " << slope);
+    CHECK(bounds.least <= slope * inset);
+    CHECK(bounds.most >= slope * inset);
+    CHECK(bounds.most - bounds.least < 2);
+  }
+}
+
 TEST_CASE("a plate that begins behind a radius is bounded at the seam") {
   for (const double slope : {-0.36, 0.36}) {
     drawn::Plate plate;

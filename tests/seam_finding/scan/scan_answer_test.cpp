@@ -2,6 +2,7 @@
 
 #include <Eigen/Cholesky>
 #include <catch2/catch.hpp>
+#include <cmath>
 
 #include "common/bus/message_checks.hpp"
 #include "tests/seam_finding/scan/answered_scans.hpp"
@@ -50,6 +51,28 @@ TEST_CASE("ends and deviations are told") {
   CHECK(seam.normal_deviations[0] > 0);
   CHECK(seam.normal_deviations[1] > 0);
   CHECK(seam.angle_deviation > 0);
+}
+
+TEST_CASE("what the cell states of its robot's accuracy is contained in the deviations") {
+  const AnsweredScans scans;
+  const seam_t exact = scans.answer();
+  SeamFindingSettings settings;
+  settings.robot_accuracy_mm = 0.3;
+  const seam_t stated = scans.answer(settings);
+  REQUIRE(stated.verdict == seam_t::FOUND);
+  const double length = (Eigen::Map<const Eigen::Vector3d>(stated.end) -
+                         Eigen::Map<const Eigen::Vector3d>(stated.start))
+                            .norm();
+  const double turn = 0.3 * std::sqrt(2.0) / length;
+  for (int row = 0; row < 3; ++row)
+    for (int column = 0; column < 3; ++column) {
+      const double more = row == column ? 0.3 * 0.3 : 0;
+      CHECK(std::abs(stated.start_covariance[row][column] - exact.start_covariance[row][column] -
+                     more) < 1e-9);
+      CHECK(std::abs(stated.end_covariance[row][column] - exact.end_covariance[row][column] -
+                     more) < 1e-9);
+    }
+  CHECK(std::abs(stated.direction_deviation - std::hypot(exact.direction_deviation, turn)) < 1e-5);
 }
 
 TEST_CASE("that the answer was held against the stripes is told, and how well it stands") {

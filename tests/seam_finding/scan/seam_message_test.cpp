@@ -45,6 +45,25 @@ TEST_CASE("a seam is usable where both of its ends were seen") {
   }
 }
 
+TEST_CASE("a seam of which the stripes contradict an end says so before all else") {
+  using Code = Reason::Code;
+  for (const Code code : {Code::kStartContradicted, Code::kEndContradicted}) {
+    SeamResult result = found_with(EndVisibility::kNotDetermined, EndVisibility::kNotDetermined);
+    result.remarks = {{Code::kNoGap}, {code, 4}};
+    CHECK(told(result).usable == seam_t::CONTRADICTED);
+  }
+  SeamResult loose = found_with(EndVisibility::kNotDetermined, EndVisibility::kSeen);
+  loose.remarks = {{Code::kStartLooselyBounded, 9}};
+  CHECK(told(loose).usable == seam_t::START_UNSURE);
+}
+
+TEST_CASE("mismatch is told where it was measured") {
+  SeamResult result = found_with(EndVisibility::kSeen, EndVisibility::kSeen);
+  CHECK(told(result).mismatch == -1);
+  result.mismatch = 0.75;
+  CHECK(told(result).mismatch == 0.75);
+}
+
 TEST_CASE("where else an end may be is told with how likely that is") {
   SeamResult result = found_with(EndVisibility::kNotDetermined, EndVisibility::kSeen);
   result.start_second = {{-4, 1, 2}, 0.5};
