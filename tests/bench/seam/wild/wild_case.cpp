@@ -1,6 +1,5 @@
 #include "tests/bench/seam/wild/wild_case.hpp"
 
-#include <cmath>
 #include <utility>
 
 #include "services/seam_finding/find_seam.hpp"
@@ -41,8 +40,6 @@ CollectedScan background_scan(const WildScene& scene) {
 SeamFindingSettings settings_of(const WildScene& scene) {
   SeamFindingSettings settings;
   settings.joint_type = joint_setting(scene.asked);
-  // The cell states what its robot errs by: of a sine the standard deviation.
-  settings.robot_accuracy_mm = scene.scan.robot_wave_mm / std::sqrt(2.0);
   return settings;
 }
 
