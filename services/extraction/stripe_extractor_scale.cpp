@@ -64,8 +64,9 @@ void StripeExtractor::drop_texture() {
     for (const int i : branch.points) sum += factor * points_[i].curvature;
     branch.chosen = sum >= kStandsOut * all.others * static_cast<double>(branch.points.size());
   }
-  std::stable_partition(selection_.branches.begin(), selection_.branches.end(),
-                        [](const Branch& branch) { return branch.chosen; });
+  auto chosen_end = selection_.branches.begin();  // by rotating: it takes no memory
+  for (auto at = chosen_end; at != selection_.branches.end(); ++at)
+    if (at->chosen) std::rotate(chosen_end++, at, at + 1);
 }
 
 // Whether the course is the only one: a stripe is, a scratch is one of many. What was chosen is
