@@ -22,6 +22,11 @@ double radius_through(double first, double second) {
   return first + second + std::sqrt(2 * first * second);
 }
 
+// Quartile to quartile.
+double spread_of(std::vector<double>& radii) {
+  return upper_quantile(radii, 0.75) - upper_quantile(radii, 0.25);
+}
+
 }  // namespace
 
 std::optional<double> corner_radius(const ScanCloud& cloud, const std::vector<int>& points,
@@ -47,14 +52,15 @@ std::optional<double> corner_radius(const ScanCloud& cloud, const std::vector<in
     ++seen;
     if (stripe.radii.empty()) continue;
     const double radius = median(stripe.radii);
+    // An arc has one radius; where the plates' edges leave a notch, each place shows another.
+    if (spread_of(stripe.radii) > kReferee.one_radius * radius) continue;
     if (stripe.nearest > kReferee.round_clearance * radius) radii.push_back(radius);
   }
   if (static_cast<int>(radii.size()) < kModel.stripes_in_a_row ||
       static_cast<double>(radii.size()) < kReferee.shown_share * seen)
     return std::nullopt;
   const double radius = median(radii);
-  const double spread = upper_quantile(radii, 0.75) - upper_quantile(radii, 0.25);
-  if (spread > kReferee.one_radius * radius) return std::nullopt;
+  if (spread_of(radii) > kReferee.one_radius * radius) return std::nullopt;
   return radius;
 }
 
