@@ -16,13 +16,14 @@ namespace {
 // The service's app with a real camera source, on an in-memory bus.
 struct Service {
   std::unique_ptr<Bus> bus = Bus::in_memory();
-  std::vector<image_t> images;
+  std::vector<image_t> images;  // but for those that only tell a scan's end
   scan_t scan{};
   std::unique_ptr<SensorCaptureApp> app;
 
   Service() {
-    bus->subscribe<image_t>("LASER0_IMAGE", Queue::images(),
-                            [this](const image_t& m) { images.push_back(m); });
+    bus->subscribe<image_t>("LASER0_IMAGE", Queue::images(), [this](const image_t& m) {
+      if (m.scan_id != 0 || m.command_id != 0) images.push_back(m);
+    });
     bus->subscribe<scan_t>("LASER0_SCAN", Queue::measurements(),
                            [this](const scan_t& m) { scan = m; });
     const auto settings = settings_of_test();
