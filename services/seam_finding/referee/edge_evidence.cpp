@@ -1,8 +1,5 @@
 #include "services/seam_finding/referee/edge_evidence.hpp"
 
-#include <algorithm>
-#include <cmath>
-
 #include "services/seam_finding/referee/constants.hpp"
 
 namespace arcstart::seam_finding {
@@ -106,69 +103,11 @@ class StripeEvidence {
   bool nothing_before_ = true;
 };
 
-// Of a segment, whose points may have been thinned out between the two; mm.
-double way_between_points(const Place& from, const Place& to) {
-  return std::hypot(to.along - from.along, to.away - from.away) / std::abs(to.point - from.point);
-}
-
-// Of the way from a plate's last place to the first off it, the share to where what lies behind
-// would come up to the plate; `beyond` is the next off it. Half of it where that does not tell.
-double share_on_plate(const Place& last, const Place& off, const Place* beyond) {
-  if (!beyond || beyond->height >= off.height) return 0.5;
-  const double back = off.height / (off.height - beyond->height);
-  return std::clamp(1 + back * (beyond->away - off.away) / (off.away - last.away), 0.0, 1.0);
-}
-
 }  // namespace
 
 EdgeEvidence evidence_of(const StripeOnPlate& stripe, double border, double begin, double width,
                          const ClaimedEnd& end, bool dark_counts) {
   return StripeEvidence(stripe, border, begin, width, end).take(dark_counts);
-}
-
-std::vector<EdgeMark> crossings_of(const StripeOnPlate& stripe, double border, double begin,
-                                   double width, const ClaimedEnd& end) {
-  // As they follow each other in the image: about an edge a stripe's segments overlap in the plate.
-  std::vector<Place> places = stripe.places;
-  sort_by(&Place::point, places);
-  const int all = static_cast<int>(places.size());
-  // Farther away is the plate's other edge, along the seam.
-  const double from = begin + kReferee.beside_seam, to = begin + width - kReferee.dark;
-  std::vector<EdgeMark> crossings;
-  // Of the segment's places on the plate, from `first` to `last`; it goes on by `step`.
-  const auto look = [&](int first, int last, int step) {
-    const Place& place = places[last];
-    const bool outward = end.out(place.along) > end.out(places[first].along);
-    if (!outward || place.away < from || place.away > to) return;
-    // No better than its points are dense.
-    if (way_between_points(places[first], place) > kReferee.place) return;
-    const auto at = [&](int i) { return i >= 0 && i < all ? &places[i] : nullptr; };
-    const Place *next = at(last + step), *beyond = at(last + 2 * step);
-    // Else something may stand before the plate, or lie on it.
-    if (!next || next->look != Look::kThrough) return;
-    // A longer dark stretch is no shadow of the plate's own edge.
-    const double dark = std::abs(next->along - place.along);
-    if (dark > -next->height * stripe.shadow + kModel.piece_gap) return;
-    EdgeMark mark{end.out(place.along), place.away - border};
-    if (next->segment == place.segment) {
-      if (std::abs(next->away - place.away) > kModel.piece_gap) return;
-      const bool on_behind = beyond && beyond->segment == place.segment;
-      const double share = share_on_plate(place, *next, on_behind ? beyond : nullptr);
-      mark.out += share * (end.out(next->along) - mark.out);
-      mark.away += share * (next->away - place.away);
-    }
-    crossings.push_back(mark);
-  };
-  for (int i = 0, behind = 1; i < all; i = behind++) {
-    if (places[i].look != Look::kOn) continue;
-    while (behind < all && places[behind].look == Look::kOn &&
-           places[behind].segment == places[i].segment)
-      ++behind;
-    if (behind - i < kModel.sure_points) continue;
-    look(i, behind - 1, 1);
-    look(behind - 1, i, -1);
-  }
-  return crossings;
 }
 
 }  // namespace arcstart::seam_finding

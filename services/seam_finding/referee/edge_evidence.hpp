@@ -34,9 +34,4 @@ struct EdgeEvidence {
 EdgeEvidence evidence_of(const StripeOnPlate& stripe, double border, double begin, double width,
                          const ClaimedEnd& end, bool dark_counts);
 
-// Where the stripe, on its way outward, leaves the plate over an edge: to what lies behind it, in
-// its image, or into the dark.
-std::vector<EdgeMark> crossings_of(const StripeOnPlate& stripe, double border, double begin,
-                                   double width, const ClaimedEnd& end);
-
 }  // namespace arcstart::seam_finding

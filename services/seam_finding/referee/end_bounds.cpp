@@ -2,14 +2,11 @@
 
 #include <algorithm>
 #include <cmath>
-#include <optional>
-#include <utility>
 #include <vector>
 
 #include "services/seam_finding/referee/constants.hpp"
 #include "services/seam_finding/referee/edge_evidence.hpp"
 #include "services/seam_finding/referee/edge_fit.hpp"
-#include "services/seam_finding/referee/edge_line.hpp"
 
 namespace arcstart::seam_finding {
 namespace {
@@ -95,30 +92,6 @@ EdgeFit fit_within(const PlateView& view, const std::vector<const StripeOnPlate*
   return fit_waved_edge(evidence);
 }
 
-std::optional<EdgeLine> line_of(const PlateView& view,
-                                const std::vector<const StripeOnPlate*>& stripes, double width,
-                                const ClaimedEnd& end) {
-  std::vector<EdgeMark> crossings;
-  for (const StripeOnPlate* stripe : stripes)
-    for (const EdgeMark& mark : crossings_of(*stripe, view.plate.inset, view.begin, width, end))
-      crossings.push_back(mark);
-  return line_through(crossings);
-}
-
-// What does not lie within the bounds is no line of this edge.
-void narrow_to(const EdgeLine& line, EndBounds& bounds) {
-  const double reach = kFit.outlier * line.deviation;
-  const double least = std::max(bounds.least, line.foot - reach),
-               most = std::min(bounds.most, line.foot + reach);
-  if (least > most) return;
-  bounds.least = least, bounds.most = most;
-  bounds.crossed = true;
-}
-
-bool crossed_at_claim(const EndBounds& bounds) {
-  return bounds.crossed && bounds.least >= -kReferee.allowed && bounds.most <= kReferee.allowed;
-}
-
 }  // namespace
 
 EndBounds bounds_of(const PlateView& view, SeamSide side, double along, double spacing) {
@@ -147,7 +120,6 @@ EndBounds bounds_of(const PlateView& view, SeamSide side, double along, double s
   bounds.least = foot.least, bounds.most = foot.most;
   // A lone stripe before such as show nothing of the plate may have met a hole in it.
   if (foot.most_but_one > foot.most + kReferee.lone * spacing) bounds.most = foot.most_but_one;
-  if (const auto line = line_of(view, stripes, width, end)) narrow_to(*line, bounds);
   return bounds;
 }
 
@@ -156,13 +128,8 @@ EndBounds first_of(const EndBounds& a, const EndBounds& b) {
   both.anchored = a.anchored && b.anchored;
   both.least = std::min(a.least, b.least);
   both.most = std::min(a.most, b.most);
-  for (const auto& [one, other] : {std::pair{&a, &b}, std::pair{&b, &a}})
-    if (crossed_at_claim(*one) && other->most >= one->least)
-      both.least = std::max(both.least, one->least);
   both.straight = a.straight && b.straight;
-  const EndBounds& first = a.most < b.most ? a : b;
-  both.crossings = first.crossings;
-  both.crossed = first.crossed;
+  both.crossings = (a.most < b.most ? a : b).crossings;
   return both;
 }
 

@@ -17,14 +17,12 @@ struct EndBounds {
   double most = std::numeric_limits<double>::infinity();    // and no farther
   bool straight = true;  // its edge, as far as it was crossed; else what is beside the seam tells
   int crossings = 0;     // stripes that leave the plate over its edge
-  bool crossed = false;  // the places where they do lie on one line, which gives the bounds
 };
 
 // along: the seam, of the claimed end. spacing: of the stripes along the seam; mm.
 EndBounds bounds_of(const PlateView& view, SeamSide side, double along, double spacing);
 
-// Of the seam, which ends where the first of its plates does. Where stripes cross the edge of one
-// at the claimed end, the other is not looked for farther in unless it must end there.
+// Of the seam, which ends where the first of its plates does.
 EndBounds first_of(const EndBounds& a, const EndBounds& b);
 
 }  // namespace arcstart::seam_finding

@@ -34,11 +34,7 @@ class EndRuling {
     if (bounds_.least > allowed) return contradicted(bounds_.least);
     if (bounds_.most < -allowed) return contradicted(bounds_.most);
     const double farthest = std::max(bounds_.most, -bounds_.least);
-    if (farthest <= allowed) {
-      // Crossings tell it so well that less than what must be noticed shows.
-      if (bounds_.crossed && farthest > kFit.outlier * claimed_deviation()) set_reach(farthest);
-      return;
-    }
+    if (farthest <= allowed) return;
     const bool open =
         visibility() == EndVisibility::kOutside || visibility() == EndVisibility::kHidden;
     if (open) return without_deviation();

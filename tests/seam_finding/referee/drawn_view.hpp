@@ -25,7 +25,6 @@ struct Scan {
   double pitch = 3.6, first = -40, last = 140;  // of the stripes along the seam; mm
   double lean = 0.38, shadow = 0.4;
   double phase = 0.7;  // of the stripes, mm
-  double step = 1;     // between places of a stripe; mm
   std::function<Cover(double)> cover = [](double) { return Cover::kNothing; };  // by crossing
 };
 
@@ -37,9 +36,9 @@ inline PlateView view_of(const Plate& plate, const Scan& scan) {
     stripe.stripe = static_cast<int>(view.stripes.size());
     stripe.crossing = crossing, stripe.lean = scan.lean, stripe.shadow = scan.shadow;
     const Cover cover = scan.cover(crossing);
-    for (int i = 0; cover != Cover::kDark && i * scan.step < plate.width + 10; ++i) {
+    for (int i = 0; cover != Cover::kDark && i * 1.0 < plate.width + 10; ++i) {
       Place place;
-      place.away = 0.3 + i * scan.step, place.along = crossing + scan.lean * place.away;
+      place.away = 0.3 + i, place.along = crossing + scan.lean * place.away;
       const double wave = plate.wave(place.away);
       const bool on = place.along > plate.from + plate.from_slope * place.away + wave &&
                       place.along < plate.to + plate.to_slope * place.away + wave &&

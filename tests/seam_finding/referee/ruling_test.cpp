@@ -61,18 +61,6 @@ TEST_CASE("an end that may be farther off than it claims says so") {
   CHECK(along(seam.accuracy->end) == Approx(0.1));
 }
 
-TEST_CASE("an end that crossings show a little off its claim says so without a remark") {
-  SeamResult seam = answer(0.05);
-  Examination examination = bounded(0.2, 0.6);
-  rule(examination, seam);
-  CHECK(along(seam.accuracy->start) == Approx(0.05));  // bounds of stripes tell no such thing
-  examination.ends[0].crossed = true;
-  rule(examination, seam);
-  CHECK(seam.start_visibility == EndVisibility::kSeen);
-  CHECK(3 * along(seam.accuracy->start) == Approx(0.6));
-  CHECK(seam.remarks.empty());
-}
-
 TEST_CASE("an end outside its bounds is not determined, and lies where they say") {
   SeamResult seam = answer(0.1);
   rule(bounded(4, 6), seam);
