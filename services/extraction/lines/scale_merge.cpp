@@ -10,7 +10,7 @@ constexpr int kMeanOver = 15;        // points to each side
 constexpr float kLikeCosine = 0.8f;  // of the directions: 37 degrees, as in linking
 // Times as strong: below that both are kept, so that a line has no hole where one scale takes over.
 constexpr float kClearly = 1.25f;
-constexpr int kCell = 8;             // px, of the grid in which neighbours are looked for
+constexpr int kCell = 8;  // px, of the grid in which neighbours are looked for
 
 // Mean curvature of each chained point's neighbours in its chain.
 FrameVector<float> mean_curvatures(const ScaledLines& lines, Memory memory) {
