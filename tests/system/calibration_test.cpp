@@ -75,7 +75,7 @@ TEST_CASE("the cell calibrates itself and finds the seam with the result") {
   calibrate_and_scan(1);
 }
 
-TEST_CASE("the same with other seeds", "[.][seeds]") { calibrate_and_scan(GENERATE(2, 3)); }
+TEST_CASE("the same with other seeds", "[long]") { calibrate_and_scan(GENERATE(2, 3)); }
 
 // What an image's stamp must be moved by to look up its position: from the devices' own clocks,
 // which the simulator starts at one instant and whose rates are known. Median over all; s.
