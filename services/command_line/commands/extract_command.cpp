@@ -38,7 +38,8 @@ struct ExtractOptions {
 
 // Files as given, folders as the images in them, sorted by name.
 std::vector<std::string> image_files(const std::vector<std::string>& paths) {
-  const std::set<std::string> endings{".png", ".pgm", ".bmp", ".tif", ".tiff", ".ppm"};
+  const std::set<std::string> endings{".png", ".jpg",  ".jpeg", ".bmp",
+                                      ".tif", ".tiff", ".pgm",  ".ppm"};
   std::vector<std::string> files;
   for (const std::string& path : paths) {
     if (!fs::is_directory(path)) {
@@ -200,7 +201,7 @@ void add_extract_command(CLI::App& parent, int& exit_code) {
       "Find the laser stripe's centres in images: CSV of u,v,strength,width,segment,sd");
   command
       .option("images", options->images,
-              "Images, or folders of images: PNG, PGM, BMP or TIFF, 8 bit")
+              "Images, or folders of images: PNG, JPEG, BMP, TIFF or PGM, 8 bit")
       .required()
       .existing_path();
   command.option("--csv", options->csv,

@@ -111,6 +111,7 @@ TEST_CASE(
   folder.write("a.png", picture());
   folder.write("b.png", expose(light, 2));
   folder.write("dark.PNG", cv::Mat(200, 300, CV_8U, cv::Scalar(5)));
+  folder.write("dark.jpg", cv::Mat(200, 300, CV_8U, cv::Scalar(5)));
   std::ofstream(folder / "pose.txt") << "no image";
   const Outcome outcome = type(
       {folder.path.string(), "--all", "--csv", folder / "out.csv", "--picture", folder / "p.png"});
@@ -129,7 +130,8 @@ TEST_CASE(
     REQUIRE(std::stod(row[2]) == Approx(30 + 0.1 * (std::stod(row[1]) - 80)).margin(0.5));
   }
   CHECK(seconds > 150);
-  CHECK(outcome.err.find("dark.PNG: no stripe found") != std::string::npos);
+  for (const char* dark : {"dark.PNG", "dark.jpg"})
+    CHECK(outcome.err.find(std::string(dark) + ": no stripe found") != std::string::npos);
   for (const char* name : {"p_a.png", "p_b.png", "p_dark.png"}) CHECK(fs::exists(folder / name));
 
   const Outcome chosen = type({folder / "b.png"});
