@@ -5,6 +5,7 @@
 #include <opencv2/core.hpp>
 #include <vector>
 
+#include "tests/draws.hpp"
 #include "tests/extraction/support/steel_scene.hpp"
 #include "tests/extraction/support/steel_surface.hpp"
 
@@ -39,7 +40,7 @@ double correlation(const cv::Mat& values, int along, int across) {
 }  // namespace
 
 TEST_CASE("steel scenes: the laser's light lies where the truth says") {
-  const auto kind = static_cast<SteelSceneKind>(GENERATE(0, 1, 2, 3));
+  const auto kind = static_cast<SteelSceneKind>(GENERATE(range(0, test::draws(4))));
   const SteelScene scene = render_steel_scene(kind, 1 + static_cast<std::uint64_t>(kind) % 2);
   CHECK(scene.turned == (static_cast<int>(kind) % 2 == 0));
   cv::Mat lit, unlit;
@@ -56,7 +57,7 @@ TEST_CASE("steel scenes: the laser's light lies where the truth says") {
 }
 
 TEST_CASE("steel surfaces: of mean 1, of a contrast as photographs have it") {
-  const auto kind = static_cast<SteelSurface>(GENERATE(range(0, 9)));
+  const auto kind = static_cast<SteelSurface>(GENERATE(range(0, test::draws(9))));
   INFO(name_of(kind));
   const SurfaceLight light = render_surface(kind, {400, 300}, 0, 5);
   REQUIRE(light.reflectance.size() == cv::Size(400, 300));
