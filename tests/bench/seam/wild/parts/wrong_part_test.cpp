@@ -126,7 +126,7 @@ TEST_CASE("plates that meet at their inner edges are an outside corner, a block 
   // With the standing plate its top and its side are as an open corner's faces; but the corner
   // itself lies between.
   SECTION("a block beside the corner") {
-    const auto& start = WildCase(scene).truth().seams[0].start.point;
+    const auto start = WildCase(scene).truth().seams[0].start.point;
     const Eigen::Vector3d beside(0, 22, 0);
     scene.solids = {block(60, 30, 12, Eigen::Vector3d(950, 0, start.z()) + beside, 10)};
     const WildCase corner(scene);
