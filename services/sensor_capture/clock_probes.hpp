@@ -9,7 +9,7 @@
 #include <string>
 
 #include "common/bus/bus.hpp"
-#include "common/clock_comparison.hpp"
+#include "services/sensor_capture/clocks/clock_comparison.hpp"
 
 namespace arcstart::sensor_capture {
 

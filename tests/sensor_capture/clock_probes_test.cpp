@@ -1,5 +1,6 @@
 // How far the positions' clock is from the images', as a scan's state tells it.
 #include <catch2/catch.hpp>
+#include <functional>
 
 #include "tests/sensor_capture/support/scripted_cell.hpp"
 
@@ -15,6 +16,7 @@ struct OtherHost {
   std::int64_t ahead = 0;  // us
   std::int64_t run_id = 900;
   int questions = 0;
+  std::function<void(clock_probe_t&)> spoil = [](clock_probe_t&) {};  // the answer
 
   explicit OtherHost(ScriptedCell& of) : cell(of) {
     cell.bus->subscribe<clock_probe_t>(
@@ -23,6 +25,7 @@ struct OtherHost {
           ++questions;
           probe.answerer_run_id = run_id;
           probe.heard_utime = probe.answered_utime = utime_now() + ahead;
+          spoil(probe);
           cell.bus->publish("CLOCK_PROBE", probe);
         });
   }
@@ -46,6 +49,28 @@ TEST_CASE("sensor_capture: without an answer the clocks' difference is not known
   cell.scan_command(7, scan_command_t::START);
   CHECK(cell.scans.back().clock_bound == -1);
   CHECK(cell.app->health().last_error.empty());
+}
+
+TEST_CASE("sensor_capture: what answers another's question says nothing of the clocks") {
+  ScriptedCell cell;
+  cell.find_camera();
+  OtherHost other(cell);
+  SECTION("of another process") {
+    other.spoil = [](clock_probe_t& answer) { ++answer.asker_run_id; };
+  }
+  SECTION("of another robot") {
+    other.spoil = [](clock_probe_t& answer) { answer.robot = "ROBOT1"; };
+  }
+  SECTION("the one before") {
+    other.spoil = [](clock_probe_t& answer) { --answer.seq; };
+  }
+  SECTION("asked at another time") {
+    other.spoil = [](clock_probe_t& answer) { ++answer.asked_utime; };
+  }
+  other.run(0.3);
+  cell.scan_command(7, scan_command_t::START);
+  CHECK(other.questions >= 2);
+  CHECK(cell.scans.back().clock_bound == -1);
 }
 
 TEST_CASE(

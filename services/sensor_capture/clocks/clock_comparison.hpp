@@ -5,7 +5,7 @@
 #include <deque>
 #include <optional>
 
-namespace arcstart {
+namespace arcstart::sensor_capture {
 
 // What is known of a difference, other clock less this one; us.
 struct ClockInterval {
@@ -55,4 +55,4 @@ class ClockComparison {
   std::int64_t step_ = 0, steps_ = 0;    // when, steady; how often
 };
 
-}  // namespace arcstart
+}  // namespace arcstart::sensor_capture

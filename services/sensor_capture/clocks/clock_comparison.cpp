@@ -1,8 +1,8 @@
-#include "common/clock_comparison.hpp"
+#include "services/sensor_capture/clocks/clock_comparison.hpp"
 
 #include <algorithm>
 
-namespace arcstart {
+namespace arcstart::sensor_capture {
 namespace {
 
 // Two crystals of 100 parts per million each, and some for a clock that is slewed.
@@ -56,4 +56,4 @@ std::optional<ClockInterval> ClockComparison::at(std::int64_t now) const {
 
 void ClockComparison::restart() { exchanges_.clear(); }
 
-}  // namespace arcstart
+}  // namespace arcstart::sensor_capture

@@ -1,9 +1,9 @@
-#include "common/clock_comparison.hpp"
+#include "services/sensor_capture/clocks/clock_comparison.hpp"
 
 #include <catch2/catch.hpp>
 #include <random>
 
-using namespace arcstart;
+using namespace arcstart::sensor_capture;
 
 namespace {
 
