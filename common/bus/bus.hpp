@@ -99,12 +99,11 @@ class Bus {
             error = meaning_error(message);
           if (!error.empty()) return note_undecodable(channel, bytes, error);
           if constexpr (is_measurement) {
-            // An image's own bytes are spoken for by their checksum, which stands before them.
-            const std::size_t looked_at = std::min(bytes.size(), kHead);
-            if (senders->is_repeated(
-                    message.run_id, message.seq,
-                    std::span(bytes).first(std::is_same_v<Message, image_t> ? looked_at
-                                                                            : bytes.size())))
+            const std::size_t looked_at = std::is_same_v<Message, image_t>
+                                              ? std::min(bytes.size(), kImageHead)
+                                              : bytes.size();
+            if (senders->is_repeated(message.run_id, message.seq,
+                                     std::span(bytes).first(looked_at)))
               return;
           }
           ++received_;
@@ -172,7 +171,6 @@ class Bus {
   std::vector<std::unique_ptr<Transport>> transports_;
   std::string buffer_warning_;
 
-  static constexpr std::size_t kHead = 512;  // bytes; an image's fields before its bytes take 200
   std::deque<std::pair<std::string, SenderWatch>> senders_;  // one a subscription
 
   mutable std::mutex mutex_;

@@ -10,6 +10,10 @@
 
 namespace arcstart {
 
+// bytes; from an image's beginning, enough for what tells two apart: its fields, which take some
+// 200, with the checksum of the rest.
+inline constexpr std::size_t kImageHead = 512;
+
 class SenderWatch {
  public:
   // calm: of how many messages of one sender alone it takes to forget a second one. By default 1 to

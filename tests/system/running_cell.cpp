@@ -37,35 +37,6 @@ std::string changed(const std::string& text, const std::vector<std::string>& cha
   return YAML::Dump(cell) + "\n";
 }
 
-// Of the time, at least, in which a service that computes for a sixth of it falls behind.
-constexpr double kWaiting = 0.2;
-
-// Packets that found no room in a socket of this network, so far.
-long dropped_packets() {
-  std::ifstream counters("/proc/net/snmp");
-  std::string names, values;
-  while (std::getline(counters, names) && std::getline(counters, values)) {
-    std::istringstream name(names), value(values);
-    std::string key, number;
-    while (names.rfind("Udp:", 0) == 0 && name >> key && value >> number)
-      if (key == "RcvbufErrors") return std::stol(number);
-  }
-  return 0;
-}
-
-// For how long the process's threads were ready and had no processor, so far; ns.
-std::int64_t waited_for_processor(pid_t pid) {
-  std::int64_t sum = 0;
-  std::error_code gone;
-  for (const auto& task :
-       std::filesystem::directory_iterator("/proc/" + std::to_string(pid) + "/task", gone)) {
-    std::ifstream times(task.path() / "schedstat");
-    std::int64_t ran = 0, waited = 0;
-    if (times >> ran >> waited) sum += waited;
-  }
-  return sum;
-}
-
 }  // namespace
 
 Process::Process(const std::vector<std::string>& arguments, const std::string& error_file,
@@ -163,22 +134,13 @@ RunningCell::RunningCell(const std::string& name, const std::vector<std::string>
         status_channel({}, {service, "", service == "robot_pose"}), Queue::newest(),
         [this, service](const service_status_t& m) { heard_.statuses[service] = m; });
   bus_->handle(std::chrono::milliseconds(1));
-  kept_up_until_ = steady_now(), dropped_ = dropped_packets();
+  load_.kept_up({});  // from now on
 }
 
 bool RunningCell::machine_kept_up() {
-  const std::int64_t now = steady_now();
-  const long dropped = dropped_packets();
-  bool kept_up = dropped == dropped_;
-  for (const auto& [service, process] : processes_) {
-    const std::int64_t waited = waited_for_processor(process->pid());
-    // Both are of the same stretch: ns for each us of it.
-    kept_up &= static_cast<double>(waited - waited_[process->pid()]) <
-               1e3 * kWaiting * static_cast<double>(now - kept_up_until_);
-    waited_[process->pid()] = waited;
-  }
-  kept_up_until_ = now, dropped_ = dropped;
-  return kept_up;
+  std::vector<pid_t> pids;
+  for (const auto& [service, process] : processes_) pids.push_back(process->pid());
+  return load_.kept_up(pids);
 }
 
 RunningCell::~RunningCell() {
@@ -322,6 +284,7 @@ bool RunningCell::finds_right_seam() {
       return !command_line::seam_error(*seam, *heard_.truth).wrong;
     if (machine_kept_up()) return false;
   }
+  fmt::print(stderr, "running cell: the machine did not keep up, no seam was judged\n");
   return true;
 }
 

@@ -13,6 +13,7 @@
 
 #include "common/bus/bus.hpp"
 #include "common/service.hpp"
+#include "tests/system/machine_load.hpp"
 
 namespace arcstart {
 
@@ -109,9 +110,7 @@ class RunningCell {
   std::unique_ptr<Bus> bus_;
   std::map<std::string, std::unique_ptr<Process>> processes_;
   Heard heard_;
-  std::int64_t kept_up_until_ = 0;        // us, steady
-  long dropped_ = 0;                      // packets
-  std::map<pid_t, std::int64_t> waited_;  // for a processor, of each service; ns
+  MachineLoad load_;
 };
 
 // Runs a program to its end: exit code, standard output and standard error.

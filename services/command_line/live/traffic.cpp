@@ -92,8 +92,7 @@ void Traffic::take(const std::string& name, const std::vector<std::uint8_t>& byt
 void Traffic::note_source(Channel& channel, const std::vector<std::uint8_t>& bytes) {
   Source source;
   if (!read_source(channel.kind, bytes, source).empty()) return;
-  // An image's first bytes hold its checksum.
-  const auto head = std::span(bytes).first(std::min<std::size_t>(bytes.size(), 512));
+  const auto head = std::span(bytes).first(std::min(bytes.size(), kImageHead));
   const bool is_repeated = channel.senders.is_repeated(source.run_id, source.seq, head);
   channel.state = channel.senders.dispute();
   if (is_repeated) return;
