@@ -1,23 +1,18 @@
 #include "common/service.hpp"
 
-#include <arpa/inet.h>
-#include <fmt/core.h>
-#include <netinet/in.h>
 #include <spdlog/sinks/stdout_sinks.h>
 #include <spdlog/spdlog.h>
-#include <sys/socket.h>
-#include <sys/un.h>
 #include <unistd.h>
 
 #include <algorithm>
-#include <cerrno>
 #include <csignal>
-#include <cstddef>
 #include <cstdlib>
 #include <filesystem>
 #include <fstream>
 
+#include "common/bus/multicast_route.hpp"
 #include "common/options.hpp"
+#include "common/service_role.hpp"
 #include "common/time.hpp"
 #ifdef ARCSTART_SYSTEMD
 #include <systemd/sd-daemon.h>
@@ -27,7 +22,6 @@ namespace arcstart {
 namespace {
 
 constexpr std::int64_t kLossIsNews = 10'000'000;  // us: so long after a loss the state is DEGRADED
-constexpr std::int64_t kStillThere = 3'000'000;   // us since its last STATUS, which comes at 1 Hz
 
 volatile std::sig_atomic_t end_asked = 0;
 void ask_for_end(int) { end_asked = 1; }
@@ -64,80 +58,15 @@ void read_memory(std::int64_t& now, std::int64_t& peak) {
   }
 }
 
-std::string host_name() {
-  char name[256] = {};
-  gethostname(name, sizeof name - 1);
-  return name;
-}
-
-// Another process that does this one's work: heard on this one's own STATUS channel.
-class Twin {
- public:
-  Twin(ServiceContext& context, const std::string& channel, const ServiceDescription& description)
-      : what_(description.name), run_id_(context.run_id) {
-    context.bus.subscribe<service_status_t>(
-        channel, Queue::measurements(), [this](const service_status_t& status) {
-          const bool is_own =
-              status.run_id == run_id_ && status.pid == getpid() && status.host == host_;
-          if (is_own || status.state == service_status_t::STOPPING) return;
-          heard_ = steady_now();
-          where_ = fmt::format("host {}, pid {}", status.host, status.pid);
-        });
-  }
-  // Empty where there is none.
-  std::string trouble() const {
-    if (heard_ == 0 || steady_now() - heard_ > kStillThere) return "";
-    return fmt::format("another {} does the same work: {}; this one is host {}, pid {}: end one",
-                       what_, where_, host_, getpid());
-  }
-
- private:
-  std::string what_, host_ = host_name(), where_;
-  std::int64_t run_id_, heard_ = 0;
-};
-
-// Held as long as the process lives, whatever ends it. An abstract socket's name belongs to the
-// host's network, as the bus does.
-void claim_role(const Instance& instance, const ServiceDescription& description,
-                const BusSettings& bus) {
-  sockaddr_un name{};
-  name.sun_family = AF_UNIX;
-  const std::string text =
-      fmt::format("arcstart/{}/{}:{}", status_channel(instance, description), bus.group, bus.port);
-  const std::size_t length = std::min(text.size(), sizeof name.sun_path - 1);
-  text.copy(name.sun_path + 1, length);
-  const int role = socket(AF_UNIX, SOCK_DGRAM | SOCK_CLOEXEC, 0);
-  if (bind(role, reinterpret_cast<const sockaddr*>(&name),
-           static_cast<socklen_t>(offsetof(sockaddr_un, sun_path) + 1 + length)) != 0 &&
-      errno == EADDRINUSE)
-    throw InputError(
-        fmt::format("{} runs on this host already, for {} on {}:{}: end it first", description.name,
-                    description.of_robot ? instance.robot : instance.sensor, bus.group, bus.port));
-}
-
-// What the kernel says of the way to the group; LCM's own answer would fill a page.
-bool has_route(const BusSettings& settings) {
-  sockaddr_in group{};
-  group.sin_family = AF_INET;
-  group.sin_port = htons(static_cast<std::uint16_t>(settings.port));
-  if (inet_pton(AF_INET, settings.group.c_str(), &group.sin_addr) != 1) return true;  // LCM tells
-  const int probe = socket(AF_INET, SOCK_DGRAM | SOCK_CLOEXEC, 0);
-  const bool reached =
-      connect(probe, reinterpret_cast<const sockaddr*>(&group), sizeof group) == 0 ||
-      errno != ENETUNREACH;
-  close(probe);
-  return reached;
-}
-
 // A network that is not there yet, as after boot, is waited for. False where the end was asked for
 // meanwhile.
 bool wait_for_route(const BusSettings& settings) {
-  if (has_route(settings)) return true;
+  if (has_multicast_route(settings.group, settings.port)) return true;
   spdlog::warn(
       "there is no route for multicast to {} yet (ip route add 224.0.0.0/4 dev INTERFACE): it is "
       "waited for",
       settings.group);
-  while (!end_asked && !has_route(settings)) usleep(200'000);
+  while (!end_asked && !has_multicast_route(settings.group, settings.port)) usleep(200'000);
   return !end_asked;
 }
 
@@ -172,7 +101,7 @@ service_status_t make_status(const ServiceContext& context, const ServiceDescrip
 
 void run_loop(ServiceContext& context, const ServiceDescription& description, App& app) {
   const std::string channel = status_channel(context.instance, description);
-  const Twin twin(context, channel, description);
+  const TwinWatch twin(context.bus, channel, description.name, context.run_id);
   std::string told_second;
   std::int64_t next_status = 0, lost = 0, last_loss = 0;
   Health told;
@@ -244,7 +173,8 @@ int run_service(int argc, char** argv, const ServiceDescription& description,
         cell.empty() ? Configuration() : Configuration::from_file(cell);
     open_state_folder(instance.state_folder);
     const auto bus_settings = configuration.read<BusSettings>("bus");
-    claim_role(instance, description, bus_settings);
+    claim_role(description.name, description.of_robot ? instance.robot : instance.sensor,
+               status_channel(instance, description), bus_settings);
     if (!wait_for_route(bus_settings)) return 0;
     Bus bus(bus_settings);
     if (!bus.buffer_warning().empty()) spdlog::warn(bus.buffer_warning());

@@ -4,8 +4,10 @@
 #include <cmath>
 #include <limits>
 #include <opencv2/calib3d.hpp>
+#include <utility>
 
 #include "services/calibration/linear_algebra/dense_solvers.hpp"
+#include "services/calibration/stages/median.hpp"
 
 namespace arcstart::calibration {
 namespace {
@@ -145,9 +147,7 @@ std::vector<double> angle_disagreement(const std::vector<RigidTransform>& T_base
         differences.push_back(std::abs(angle(T_base_tool[i], T_base_tool[j]) -
                                        angle(T_camera_plate[i], T_camera_plate[j])));
     if (differences.empty()) differences.push_back(0);
-    const auto middle = differences.begin() + static_cast<std::ptrdiff_t>(differences.size() / 2);
-    std::nth_element(differences.begin(), middle, differences.end());
-    result.push_back(*middle);
+    result.push_back(median(std::move(differences)));
   }
   return result;
 }

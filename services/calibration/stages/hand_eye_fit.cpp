@@ -7,6 +7,7 @@
 
 #include "services/calibration/linear_algebra/dense_solvers.hpp"
 #include "services/calibration/stages/hand_eye.hpp"
+#include "services/calibration/stages/median.hpp"
 #include "services/calibration/stages/target_symmetry.hpp"
 
 namespace arcstart::calibration {
@@ -60,12 +61,6 @@ std::vector<double> misfits(const Target& plate, const Moves& moves, const HandE
     result.push_back(std::isfinite(rms) ? rms : kInfinite);
   }
   return result;
-}
-
-double median(std::vector<double> values) {
-  const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
-  std::nth_element(values.begin(), middle, values.end());
-  return *middle;
 }
 
 // Over all moves given; nothing where they leave the position open.

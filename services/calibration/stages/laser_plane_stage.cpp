@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "services/calibration/linear_algebra/dense_solvers.hpp"
+#include "services/calibration/stages/median.hpp"
 
 namespace arcstart::calibration {
 namespace {
@@ -78,8 +79,7 @@ std::vector<Eigen::Vector2d> straight_stripe(const SensorModel& camera,
       }
     if (points.size() < kFewest) return {};
     best = fit_line(points);
-    std::nth_element(distances.begin(), distances.begin() + distances.size() / 2, distances.end());
-    reach = std::clamp(4 * 1.4826 * distances[distances.size() / 2], 0.2, kSupport);
+    reach = std::clamp(4 * 1.4826 * median(std::move(distances)), 0.2, kSupport);
   }
   std::vector<Eigen::Vector2d> result;
   const std::size_t count = std::min(chosen.size(), static_cast<std::size_t>(most));

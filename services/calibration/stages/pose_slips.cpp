@@ -14,12 +14,16 @@ constexpr std::size_t kFewestShown = 5;  // poses, as for a calibration
 // Above this no robot errs so, the poses mean something else; the worst real set known, whose
 // robot is off by 3.4 mm, has 7.
 constexpr double kNoHandEye = 20;  // mm
-constexpr double kUnit = 0.1;      // share by which a length unit's factor may be off
-constexpr double kSureUnit = 5;    // standard deviations
-constexpr double kAlike = 1.5;     // misfits whose ratio is less come to the same
-// Poses that turn about the plate alone leave little apart even where they mean something else.
+// Share by which a length unit's factor may be off: the next unit is 2.5 times another.
+constexpr double kUnit = 0.1;
+constexpr double kSureUnit = 5;  // standard deviations
+// Misfits whose ratio is less come to the same - calibration_stages_test: 10 draws a slip.
+constexpr double kAlike = 1.5;
+// Times, where the poses fit as they stand: such as turn about the plate alone leave little apart
+// even where they mean something else - calibration_stages_test, as above.
 constexpr double kClearlyBetter = 5;
-constexpr double kPositionsFit = 5;  // mm
+// mm; the worst real set known has 4.4.
+constexpr double kPositionsFit = 5;
 
 struct LengthUnit {
   double factor;  // of the plate's lengths, that the robot's moves fit
