@@ -4,20 +4,16 @@
 #include <cmath>
 #include <numbers>
 
+#include "common/order_statistics.hpp"
+
 namespace arcstart::calibration {
 namespace {
-
-double median(std::vector<double> values) {
-  const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
-  std::nth_element(values.begin(), middle, values.end());
-  return *middle;
-}
 
 // The greatest, where it exceeds a multiple of the median and an amount.
 std::optional<std::size_t> odd_one(const std::vector<double>& values, double times, double least) {
   if (values.size() < 4) return std::nullopt;
   const auto worst = std::max_element(values.begin(), values.end());
-  if (*worst <= std::max(least, times * median(values))) return std::nullopt;
+  if (*worst <= std::max(least, times * median(std::vector(values)))) return std::nullopt;
   return static_cast<std::size_t>(worst - values.begin());
 }
 

@@ -8,6 +8,8 @@
 #include <opencv2/imgproc.hpp>
 #include <vector>
 
+#include "common/order_statistics.hpp"
+
 namespace arcstart::calibration {
 namespace {
 
@@ -23,14 +25,6 @@ std::vector<cv::Point2f> hull_of(const std::vector<Eigen::Vector2d>& points) {
     all.push_back({static_cast<float>(p.x()), static_cast<float>(p.y())});
   cv::convexHull(all, hull);
   return hull;
-}
-
-template <class Value>
-Value quantile(std::vector<Value>& values, double share) {
-  const auto place =
-      values.begin() + static_cast<std::ptrdiff_t>(share * static_cast<double>(values.size() - 1));
-  std::nth_element(values.begin(), place, values.end());
-  return *place;
 }
 
 std::string plate_trouble(const cv::Mat& grid, const std::vector<cv::Point2f>& hull) {

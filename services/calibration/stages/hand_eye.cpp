@@ -6,8 +6,8 @@
 #include <opencv2/calib3d.hpp>
 #include <utility>
 
+#include "common/order_statistics.hpp"
 #include "services/calibration/linear_algebra/dense_solvers.hpp"
-#include "services/calibration/stages/median.hpp"
 
 namespace arcstart::calibration {
 namespace {

@@ -5,9 +5,9 @@
 #include <cmath>
 #include <limits>
 
+#include "common/order_statistics.hpp"
 #include "services/calibration/linear_algebra/dense_solvers.hpp"
 #include "services/calibration/stages/hand_eye.hpp"
-#include "services/calibration/stages/median.hpp"
 #include "services/calibration/stages/target_symmetry.hpp"
 
 namespace arcstart::calibration {
@@ -123,7 +123,7 @@ HandEyeFit fit_hand_eye(const Target& plate, const std::vector<PairedPose>& pose
     auto fit = least_squares_fit(agreeing, factor);
     if (!fit) break;
     const std::vector<double> all = misfits(plate, moves, *fit);
-    fit->misfit_mm = median(all);
+    fit->misfit_mm = median(std::vector(all));
     if (!(fit->misfit_mm < best.misfit_mm)) break;
     best = *fit;
     agreeing = {};

@@ -4,8 +4,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "common/order_statistics.hpp"
 #include "services/calibration/linear_algebra/dense_solvers.hpp"
-#include "services/calibration/stages/median.hpp"
 
 namespace arcstart::calibration {
 namespace {
@@ -128,9 +128,7 @@ LaserPlaneFit fit_laser_plane(const std::vector<Eigen::Vector3d>& points) {
       squares += distances.back() * distances.back();
     }
     fit.rms_mm = std::sqrt(squares / static_cast<double>(points.size()));
-    std::vector<double> sorted = distances;
-    std::nth_element(sorted.begin(), sorted.begin() + sorted.size() / 2, sorted.end());
-    const double deviation = std::max(1e-6, 1.4826 * sorted[sorted.size() / 2]);
+    const double deviation = std::max(1e-6, 1.4826 * median(std::vector(distances)));
     for (std::size_t i = 0; i < points.size(); ++i)
       weights[i] = std::min(1.0, kHuber * deviation / std::max(1e-12, distances[i]));
   }

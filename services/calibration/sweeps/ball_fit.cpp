@@ -6,6 +6,7 @@
 #include <cmath>
 #include <random>
 
+#include "common/order_statistics.hpp"
 #include "services/calibration/sweeps/flat_faces.hpp"
 
 namespace arcstart::calibration {
@@ -70,9 +71,7 @@ Sphere fit(const Points& points, Sphere sphere, bool radius_free) {
     std::vector<double> distances;
     for (const Eigen::Vector3d& point : points)
       distances.push_back(std::abs(sphere.distance(point)));
-    const auto middle = distances.begin() + static_cast<std::ptrdiff_t>(distances.size() / 2);
-    std::nth_element(distances.begin(), middle, distances.end());
-    const double deviation = std::max(1e-3, 1.4826 * *middle);
+    const double deviation = std::max(1e-3, 1.4826 * median(distances));
     Eigen::Matrix4d information = Eigen::Matrix4d::Zero();
     Eigen::Vector4d gradient = Eigen::Vector4d::Zero();
     for (const Eigen::Vector3d& point : points) {

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "common/order_statistics.hpp"
 #include "common/time.hpp"
 #include "services/calibration/adjustment/adjustment.hpp"
 #include "services/calibration/linear_algebra/dense_solvers.hpp"
@@ -16,12 +17,6 @@ constexpr double kFirstDeviation = 0.1, kLeastDeviation = 0.003;  // mm
 constexpr double kHuber = 2;            // deviations beyond which a piece counts linearly
 constexpr double kOffsetDeviation = 1;  // s, before anything is seen
 constexpr double kSettled = 1e-6;       // s
-
-double median(std::vector<double> values) {
-  const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
-  std::nth_element(values.begin(), middle, values.end());
-  return *middle;
-}
 
 // Share of the motion's direction; near rest there is none.
 Eigen::Vector3d direction(const Eigen::Vector3d& velocity) {

@@ -3,9 +3,9 @@
 #include <algorithm>
 #include <cmath>
 
+#include "common/order_statistics.hpp"
 #include "services/seam_finding/cloud/constants.hpp"
 #include "services/seam_finding/cloud/neighbour_grid.hpp"
-#include "services/seam_finding/fit/order_statistics.hpp"
 #include "services/seam_finding/fit/plane_fit.hpp"
 
 namespace arcstart::seam_finding {

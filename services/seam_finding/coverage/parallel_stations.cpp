@@ -3,9 +3,9 @@
 #include <algorithm>
 #include <cmath>
 
+#include "common/order_statistics.hpp"
 #include "services/seam_finding/coverage/constants.hpp"
 #include "services/seam_finding/coverage/stations.hpp"
-#include "services/seam_finding/fit/order_statistics.hpp"
 
 namespace arcstart::seam_finding {
 namespace {

@@ -5,8 +5,8 @@
 #include <limits>
 #include <optional>
 
+#include "common/order_statistics.hpp"
 #include "services/seam_finding/coverage/constants.hpp"
-#include "services/seam_finding/fit/order_statistics.hpp"
 
 namespace arcstart::seam_finding {
 namespace {

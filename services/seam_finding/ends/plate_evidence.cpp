@@ -3,8 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "common/order_statistics.hpp"
 #include "services/seam_finding/ends/constants.hpp"
-#include "services/seam_finding/fit/order_statistics.hpp"
 
 namespace arcstart::seam_finding {
 namespace {

@@ -5,12 +5,12 @@
 #include <utility>
 #include <vector>
 
+#include "common/order_statistics.hpp"
 #include "services/seam_finding/coverage/parallel_stations.hpp"
 #include "services/seam_finding/ends/constants.hpp"
 #include "services/seam_finding/ends/end_distribution.hpp"
 #include "services/seam_finding/ends/foot_likelihood.hpp"
 #include "services/seam_finding/ends/plate_evidence.hpp"
-#include "services/seam_finding/fit/order_statistics.hpp"
 #include "services/seam_finding/gaps/constants.hpp"
 #include "services/seam_finding/gaps/root_gap.hpp"
 

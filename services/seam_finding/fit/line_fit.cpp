@@ -4,8 +4,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "common/order_statistics.hpp"
 #include "services/seam_finding/fit/constants.hpp"
-#include "services/seam_finding/fit/order_statistics.hpp"
 
 namespace arcstart::seam_finding {
 

@@ -5,7 +5,7 @@
 #include <cmath>
 #include <limits>
 
-#include "services/seam_finding/fit/order_statistics.hpp"
+#include "common/order_statistics.hpp"
 #include "services/seam_finding/gaps/constants.hpp"
 
 namespace arcstart::seam_finding {

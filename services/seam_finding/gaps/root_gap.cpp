@@ -4,7 +4,7 @@
 #include <cmath>
 #include <span>
 
-#include "services/seam_finding/fit/order_statistics.hpp"
+#include "common/order_statistics.hpp"
 #include "services/seam_finding/gaps/constants.hpp"
 
 namespace arcstart::seam_finding {

@@ -5,9 +5,9 @@
 #include <optional>
 
 #include "common/geometry.hpp"
+#include "common/order_statistics.hpp"
 #include "services/seam_finding/coverage/coverage.hpp"
 #include "services/seam_finding/coverage/round_edge.hpp"
-#include "services/seam_finding/fit/order_statistics.hpp"
 #include "services/seam_finding/joints/block_edge.hpp"
 #include "services/seam_finding/joints/constants.hpp"
 #include "services/seam_finding/joints/contact.hpp"

@@ -6,9 +6,9 @@
 #include <numeric>
 #include <utility>
 
+#include "common/order_statistics.hpp"
 #include "services/seam_finding/coverage/coverage.hpp"
 #include "services/seam_finding/coverage/parallel_stations.hpp"
-#include "services/seam_finding/fit/order_statistics.hpp"
 #include "services/seam_finding/joints/constants.hpp"
 #include "services/seam_finding/joints/parallel_joint_type.hpp"
 #include "services/seam_finding/planes/robust_plane.hpp"

@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <numeric>
 
-#include "services/seam_finding/fit/order_statistics.hpp"
+#include "common/order_statistics.hpp"
 #include "services/seam_finding/joints/constants.hpp"
 #include "services/seam_finding/joints/parallel_edges.hpp"
 #include "services/seam_finding/joints/parallel_joint.hpp"

@@ -5,8 +5,8 @@
 #include <map>
 #include <set>
 
+#include "common/order_statistics.hpp"
 #include "services/seam_finding/fit/line_fit.hpp"
-#include "services/seam_finding/fit/order_statistics.hpp"
 #include "services/seam_finding/joints/constants.hpp"
 #include "services/seam_finding/model/constants.hpp"
 

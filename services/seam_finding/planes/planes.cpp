@@ -7,10 +7,10 @@
 #include <random>
 #include <utility>
 
+#include "common/order_statistics.hpp"
 #include "services/seam_finding/cloud/connected_components.hpp"
 #include "services/seam_finding/cloud/neighbour_grid.hpp"
 #include "services/seam_finding/cloud/plane_points.hpp"
-#include "services/seam_finding/fit/order_statistics.hpp"
 #include "services/seam_finding/fit/plane_fit.hpp"
 #include "services/seam_finding/planes/constants.hpp"
 #include "services/seam_finding/planes/plane_hypotheses.hpp"

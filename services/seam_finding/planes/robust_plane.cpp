@@ -8,8 +8,8 @@
 #include <numeric>
 #include <optional>
 
+#include "common/order_statistics.hpp"
 #include "services/seam_finding/fit/biweight_sums.hpp"
-#include "services/seam_finding/fit/order_statistics.hpp"
 #include "services/seam_finding/planes/constants.hpp"
 #include "services/seam_finding/planes/interreflection.hpp"
 

@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <vector>
 
-#include "services/seam_finding/fit/order_statistics.hpp"
+#include "common/order_statistics.hpp"
 #include "services/seam_finding/referee/constants.hpp"
 #include "services/seam_finding/referee/contradictions.hpp"
 #include "services/seam_finding/referee/corner/corner_radius.hpp"

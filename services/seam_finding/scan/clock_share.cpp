@@ -7,7 +7,7 @@
 #include <arcstart/seam_t.hpp>
 #include <cmath>
 
-#include "services/seam_finding/fit/order_statistics.hpp"
+#include "common/order_statistics.hpp"
 
 namespace arcstart::seam_finding {
 namespace {

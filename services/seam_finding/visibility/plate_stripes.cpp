@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "services/seam_finding/fit/order_statistics.hpp"
+#include "common/order_statistics.hpp"
 #include "services/seam_finding/visibility/constants.hpp"
 
 namespace arcstart::seam_finding {

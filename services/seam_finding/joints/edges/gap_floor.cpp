@@ -5,7 +5,7 @@
 #include <utility>
 #include <vector>
 
-#include "services/seam_finding/fit/order_statistics.hpp"
+#include "common/order_statistics.hpp"
 #include "services/seam_finding/joints/constants.hpp"
 #include "services/seam_finding/joints/parallel_joint_type.hpp"
 

@@ -1,10 +1,10 @@
 // Medians and quantiles against std::sort, with each convention's place written out in integers.
-#include "services/seam_finding/fit/order_statistics.hpp"
+#include "common/order_statistics.hpp"
 
 #include <catch2/catch.hpp>
 #include <random>
 
-using namespace arcstart::seam_finding;
+using namespace arcstart;
 
 TEST_CASE("a quantile is the value at its place in the sorted list") {
   std::mt19937 engine(3);
