@@ -1,5 +1,5 @@
-// PCD and PLY: any bytes give finite points or a PointCloudFileError, and memory in proportion to
-// the file.
+// PCD, PLY and text: any bytes give finite points or a PointCloudFileError, and memory in
+// proportion to the file.
 #include <cstdlib>
 
 #include "services/command_line/clouds/point_cloud_file.hpp"
@@ -12,7 +12,10 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
   for (const std::string& whole :
        {std::string(bytes), "# .PCD v0.7\nVERSION 0.7\nFIELDS x y z\n" + std::string(bytes),
         "ply\nformat ascii 1.0\n" + std::string(bytes),
-        "ply\nformat binary_little_endian 1.0\n" + std::string(bytes)}) {
+        "ply\nformat binary_little_endian 1.0\n" + std::string(bytes),
+        "FIELDS x y z\nSIZE 4 4 4\nTYPE F F F\nWIDTH 9\nDATA binary_compressed\n" +
+            std::string(bytes),
+        "1 2 3\n" + std::string(bytes)}) {
     try {
       const PointCloud cloud = parse_point_cloud(whole, "cloud");
       for (const auto& point : cloud.points)

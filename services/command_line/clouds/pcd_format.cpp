@@ -1,6 +1,9 @@
 #include <fmt/core.h>
+#include <liblzf/lzf.h>
 
 #include <cmath>
+#include <cstdint>
+#include <cstring>
 #include <limits>
 
 #include "services/command_line/clouds/point_cloud_table.hpp"
@@ -62,6 +65,30 @@ void check_sizes(const std::vector<PointField>& fields, const std::string& name)
   }
 }
 
+// LZF's longest copy: 3 bytes stand for 264.
+constexpr std::size_t kMostGrowth = 88;
+
+// Two sizes, compressed and not, and the table field by field (pcl::PCDWriter).
+void read_compressed_table(PointCloud& cloud, PointTable& table, std::string_view bytes,
+                           const std::string& name) {
+  std::uint32_t sizes[2] = {};
+  if (bytes.size() < sizeof sizes)
+    fail_to_read(name, "its compressed points are missing: the file is cut off");
+  std::memcpy(sizes, bytes.data(), sizeof sizes);
+  bytes.remove_prefix(sizeof sizes);
+  if (sizes[0] > bytes.size())
+    fail_to_read(name,
+                 fmt::format("it promises {} compressed bytes, {} follow: the file is cut off",
+                             sizes[0], bytes.size()));
+  if (sizes[1] / kMostGrowth > sizes[0])
+    fail_to_read(name, fmt::format("{} compressed bytes cannot hold {}", sizes[0], sizes[1]));
+  std::string plain(sizes[1], '\0');
+  if (lzf_decompress(bytes.data(), sizes[0], plain.data(), sizes[1]) != sizes[1])
+    fail_to_read(name, "its compressed points are damaged");
+  table.field_major = true;
+  read_binary_table(cloud, table, plain, name);
+}
+
 }  // namespace
 
 PointCloud parse_pcd(std::string_view bytes, const std::string& name) {
@@ -108,12 +135,11 @@ PointCloud parse_pcd(std::string_view bytes, const std::string& name) {
   } else if (data == "ascii") {
     read_ascii_table(cloud, table, text, name);
   } else if (data == "binary_compressed") {
+    read_compressed_table(cloud, table, text.left(), name);
+  } else {
     fail_to_read(
         name,
-        "binary_compressed PCD is not read: convert it by `pcl_convert_pcd_ascii_binary IN.pcd "
-        "OUT.pcd 1`");
-  } else {
-    fail_to_read(name, fmt::format("its DATA is '{:.40}', must be ascii or binary", data));
+        fmt::format("its DATA is '{:.40}', must be ascii, binary or binary_compressed", data));
   }
   return cloud;
 }

@@ -64,13 +64,15 @@ PointCloud parse_ply(std::string_view bytes, const std::string& name) {
     }
   }
   if (part == kBefore) fail_to_read(name, "its header has no element vertex");
-  if (format == "binary_little_endian") {
+  table.big_endian = format == "binary_big_endian";
+  if (format == "binary_little_endian" || table.big_endian) {
     read_binary_table(cloud, table, text.left(), name);
   } else if (format == "ascii") {
     read_ascii_table(cloud, table, text, name);
   } else {
-    fail_to_read(
-        name, fmt::format("its format is '{:.40}', must be ascii or binary_little_endian", format));
+    fail_to_read(name, fmt::format("its format is '{:.40}', must be ascii, binary_little_endian or "
+                                   "binary_big_endian",
+                                   format));
   }
   return cloud;
 }

@@ -40,7 +40,8 @@ PointCloud parse_point_cloud(std::string_view bytes, const std::string& name) {
   if (bytes.empty()) fail_to_read(name, "is empty");
   PointCloud cloud = bytes.substr(0, 4) == "ply\n" || bytes.substr(0, 5) == "ply\r\n"
                          ? parse_ply(bytes, name)
-                         : parse_pcd(bytes, name);
+                     : is_text_table(bytes) ? parse_text_table(bytes, name)
+                                            : parse_pcd(bytes, name);
   if (cloud.points.empty())
     fail_to_read(name, cloud.skipped == 0
                            ? std::string("it holds no points")

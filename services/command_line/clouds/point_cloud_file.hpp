@@ -1,4 +1,4 @@
-// Point clouds as files: PCD (ascii, binary) and PLY (ascii, binary_little_endian).
+// Point clouds as files: PCD, PLY, and text with a point a line.
 #pragma once
 
 #include <Eigen/Core>

@@ -2,6 +2,7 @@
 
 #include <fmt/core.h>
 
+#include <algorithm>
 #include <array>
 #include <charconv>
 #include <cstdint>
@@ -18,7 +19,12 @@ double load(const char* bytes) {
   return static_cast<double>(value);
 }
 
-double value_at(const char* bytes, const PointField& field) {
+double value_at(const char* bytes, const PointField& field, bool big_endian) {
+  std::array<char, 8> reversed;
+  if (big_endian) {
+    std::reverse_copy(bytes, bytes + field.size, reversed.begin());
+    bytes = reversed.data();
+  }
   if (field.kind == FieldKind::kFloat)
     return field.size == 8 ? load<double>(bytes) : load<float>(bytes);
   const bool is_signed = field.kind == FieldKind::kSigned;
@@ -32,13 +38,6 @@ double value_at(const char* bytes, const PointField& field) {
     default:
       return is_signed ? load<std::int64_t>(bytes) : load<std::uint64_t>(bytes);
   }
-}
-
-void take(PointCloud& cloud, const Eigen::Vector3d& point) {
-  if (point.allFinite() && point.cwiseAbs().maxCoeff() < 1e9)
-    cloud.points.push_back(point);
-  else
-    ++cloud.skipped;
 }
 
 // The values' columns of x, y and z, counted in values, and the bytes before them.
@@ -72,6 +71,13 @@ Columns columns_of(const PointTable& table, const std::string& name) {
 
 void fail_to_read(const std::string& name, const std::string& why) {
   throw PointCloudFileError(name + ": " + why);
+}
+
+void take_point(PointCloud& cloud, const Eigen::Vector3d& point) {
+  if (point.allFinite() && point.cwiseAbs().maxCoeff() < 1e9)
+    cloud.points.push_back(point);
+  else
+    ++cloud.skipped;
 }
 
 std::vector<std::string_view> words_of(std::string_view line) {
@@ -117,12 +123,14 @@ void read_binary_table(PointCloud& cloud, const PointTable& table, std::string_v
                              table.points, columns.bytes, bytes.size()));
   cloud.points.reserve(table.points);
   for (std::size_t i = 0; i < table.points; ++i) {
-    const char* row = bytes.data() + i * columns.bytes;
     Eigen::Vector3d point;
-    for (std::size_t axis = 0; axis < 3; ++axis)
-      point[static_cast<int>(axis)] =
-          value_at(row + columns.byte[axis], table.fields[columns.field[axis]]);
-    take(cloud, point);
+    for (std::size_t axis = 0; axis < 3; ++axis) {
+      const PointField& field = table.fields[columns.field[axis]];
+      const std::size_t at = table.field_major ? columns.byte[axis] * table.points + i * field.size
+                                               : i * columns.bytes + columns.byte[axis];
+      point[static_cast<int>(axis)] = value_at(bytes.data() + at, field, table.big_endian);
+    }
+    take_point(cloud, point);
   }
 }
 
@@ -152,7 +160,7 @@ void read_ascii_table(PointCloud& cloud, const PointTable& table, HeaderText& te
         point[static_cast<int>(axis)] = *number;
       }
     }
-    take(cloud, point);
+    take_point(cloud, point);
   }
 }
 

@@ -28,6 +28,8 @@ struct PointField {
 struct PointTable {
   std::vector<PointField> fields;
   std::size_t points = 0;
+  bool big_endian = false;   // of a binary table
+  bool field_major = false;  // likewise: all points' first field, then all points' second
 };
 
 constexpr std::size_t kMostFields = 256;
@@ -74,6 +76,9 @@ std::size_t count_of(std::string_view word, const std::string& name, const std::
 // Nothing for a word that is no number; not finite for one that no double holds.
 std::optional<double> number_of(std::string_view word);
 
+// A point that is not finite, or lies beyond any cell, is counted as skipped.
+void take_point(PointCloud& cloud, const Eigen::Vector3d& point);
+
 // Both take the points in, and throw where the table lacks x, y or z or is longer than what there
 // is of it.
 void read_binary_table(PointCloud& cloud, const PointTable& table, std::string_view bytes,
@@ -81,10 +86,16 @@ void read_binary_table(PointCloud& cloud, const PointTable& table, std::string_v
 void read_ascii_table(PointCloud& cloud, const PointTable& table, HeaderText& text,
                       const std::string& name);
 
-// PCD, version 0.7 and before (pcl/io/pcd_io.h): ascii and binary.
+// PCD, version 0.7 and before (pcl/io/pcd_io.h): ascii, binary and binary_compressed.
 PointCloud parse_pcd(std::string_view bytes, const std::string& name);
 
-// PLY 1.0: ascii and binary_little_endian.
+// PLY 1.0: ascii, binary_little_endian and binary_big_endian.
 PointCloud parse_ply(std::string_view bytes, const std::string& name);
+
+// A point a line, as XYZ, TXT, ASC, PTS and CSV files have it: numbers separated by spaces, tabs,
+// commas or semicolons, of which the first three are x, y and z, unless a line before them names
+// the columns. Lines that begin with # or // are left out.
+bool is_text_table(std::string_view bytes);
+PointCloud parse_text_table(std::string_view bytes, const std::string& name);
 
 }  // namespace arcstart::command_line

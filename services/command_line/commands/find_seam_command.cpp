@@ -210,7 +210,7 @@ std::string finite(const std::string& text) {
 void add_find_seam_command(CLI::App& parent, int& exit_code) {
   auto options = std::make_shared<FindSeamOptions>();
   Command command(parent, "find-seam", "Find the weld seam in a point cloud from a file");
-  command.option("CLOUD", options->cloud, "PCD (ascii, binary) or PLY (ascii, little endian)")
+  command.option("CLOUD", options->cloud, "PCD, PLY, or text with a point a line (XYZ, CSV, PTS)")
       .required();
   command.option("--background", options->background,
                  "Cloud of the empty cell, which is taken away");

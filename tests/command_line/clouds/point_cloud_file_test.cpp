@@ -93,6 +93,60 @@ TEST_CASE("what is written is read by PCL and by the product alike") {
   }
 }
 
+TEST_CASE("what PCL compresses is read, and no damage of it does more than an error") {
+  auto points = random_points(700);
+  for (int i = 0; i < 300; ++i) points.emplace_back(1, 2, 3);  // where it compresses
+  const File file("compressed.pcd");
+  pcl_judge::write_compressed_pcd(file.path, points);
+  CHECK(fs::file_size(file.path) < 12 * points.size());
+  CHECK(same(read_point_cloud(file.path).points, points));
+  std::ifstream in(file.path, std::ios::binary);
+  const std::string good((std::istreambuf_iterator<char>(in)), {});
+  std::mt19937 engine(5);
+  int errors = 0;
+  for (int i = 0; i < 3000; ++i) {
+    std::string bad = good;
+    if (i % 3 == 0) bad.resize(engine() % bad.size());
+    for (int j = 0; j < 3 && !bad.empty(); ++j)
+      bad[engine() % bad.size()] = static_cast<char>(engine());
+    std::size_t read = 0;
+    try {
+      read = parse_point_cloud(bad, "damaged").points.size();
+    } catch (const PointCloudFileError&) {
+      ++errors;
+    }
+    CHECK(read <= points.size());
+  }
+  CHECK(errors > 1000);
+}
+
+TEST_CASE("a point a line, whatever separates its numbers") {
+  const std::vector<Eigen::Vector3d> points = {{1, 2, 3}, {-4, 5.5, 6e2}};
+  for (const char* text : {
+           "1 2 3\n-4 5.5 6e2",
+           "1\t2\t3\r\n-4\t5.5\t600\r\n",
+           "# made by hand\n\n 1, 2, 3\n-4,5.5,600\n",
+           "1;2;3;0.5\n-4;5.5;600;0.5\n",
+           "2\n1 2 3 17 255 0 0\n-4 5.5 600 17 0 255 0\n",
+           "//X Y Z R G B\n1 2 3 9 9 9\n-4 5.5 600 9 9 9\n",
+           "intensity,z,\"X\",Y\n9,3,1,2\n9,600,-4,5.5\n",
+       }) {
+    CAPTURE(text);
+    CHECK(same(parse_point_cloud(text, "c").points, points));
+  }
+  const PointCloud gaps = parse_point_cloud("1 2 3\nnan nan nan\n4 5 6\n", "c");
+  CHECK(gaps.points.size() == 2);
+  CHECK(gaps.skipped == 1);
+
+  using Catch::Contains;
+  CHECK_THAT(error_of("1 2 3\n4 5 6 7\n"), Contains("line 2: 4 columns, the lines before have 3"));
+  CHECK_THAT(error_of("1 2 3\n4 5 six\n"), Contains("line 2: 'six' is no number"));
+  CHECK_THAT(error_of("1 2\n3 4\n"), Contains("line 1: 2 columns, too few"));
+  CHECK_THAT(error_of("1,5;2,5;3,5\n"), Contains("decimal comma"));
+  CHECK_THAT(error_of("1000\n"), Contains("holds no points"));
+  CHECK_THAT(error_of("x y z\n"), Contains("holds no points"));
+}
+
 TEST_CASE("the real clouds are read as PCL reads them") {
   if (!fs::exists(data_folder() / "tee_clouds")) {
     WARN("skipped: no folder tee_clouds in " << data_folder() << ", see ARCSTART_DATA");
@@ -132,6 +186,10 @@ TEST_CASE("ascii and binary, fields of any kind and order, points that are no nu
         Eigen::Vector3d(7, 8, 9));
   CHECK(parse_point_cloud(ply_header("1", "binary_little_endian") + floats({7, 8, 9}), "c")
             .points[0] == Eigen::Vector3d(7, 8, 9));
+  std::string swapped = floats({9, 8, 7});
+  std::reverse(swapped.begin(), swapped.end());
+  CHECK(parse_point_cloud(ply_header("1", "binary_big_endian") + swapped, "c").points[0] ==
+        Eigen::Vector3d(7, 8, 9));
 }
 
 TEST_CASE("each bad file has its one clear line") {
@@ -152,9 +210,20 @@ TEST_CASE("each bad file has its one clear line") {
   for (const char* many : {"4294967296", "9223372036854775807", "18446744073709551615"})
     for (const char* data : {"ascii", "binary"})
       CHECK_THAT(error_of(pcd_header(many, data) + "1 2 3\n"), Contains("promises"));
-  CHECK_THAT(error_of(pcd_header("1", "binary_compressed") + "xxxx"),
-             Contains("pcl_convert_pcd_ascii_binary"));
-  CHECK_THAT(error_of(pcd_header("1", "zipped")), Contains("must be ascii or binary"));
+  const auto compressed = [](std::uint32_t packed, std::uint32_t plain, const std::string& bytes) {
+    std::string sizes(8, '\0');
+    std::memcpy(sizes.data(), &packed, 4);
+    std::memcpy(sizes.data() + 4, &plain, 4);
+    return pcd_header("1", "binary_compressed") + sizes + bytes;
+  };
+  CHECK_THAT(error_of(pcd_header("1", "binary_compressed") + "xxxx"), Contains("cut off"));
+  CHECK_THAT(error_of(compressed(9, 12, "xxxx")),
+             Contains("promises 9 compressed bytes, 4 follow"));
+  CHECK_THAT(error_of(compressed(4, 4000000000u, "xxxx")), Contains("cannot hold"));
+  CHECK_THAT(error_of(compressed(4, 12, "xxxx")), Contains("are damaged"));
+  CHECK_THAT(error_of(compressed(9, 8, std::string("\x07") + "12345678")),
+             Contains("promises 1 points of 12 bytes, 8 bytes follow"));
+  CHECK_THAT(error_of(pcd_header("1", "zipped")), Contains("must be ascii, binary or"));
   std::string header = pcd_header("1", "ascii");
   const auto with = [&](const std::string& from, const std::string& to) {
     std::string changed = header;
@@ -170,8 +239,8 @@ TEST_CASE("each bad file has its one clear line") {
   CHECK_THAT(error_of(with("HEIGHT 1", "HEIGHT 2")), Contains("WIDTH times HEIGHT is 2"));
   CHECK_THAT(error_of(with("HEIGHT 1", "HEIGHT 18446744073709551615")), Contains("says POINTS"));
   CHECK_THAT(error_of("ply\nformat ascii 1.0\nend_header\n"), Contains("no element vertex"));
-  CHECK_THAT(error_of(ply_header("2", "binary_big_endian") + floats({1, 2, 3, 4, 5, 6})),
-             Contains("must be ascii or binary_little_endian"));
+  CHECK_THAT(error_of(ply_header("2", "binary_mixed") + floats({1, 2, 3, 4, 5, 6})),
+             Contains("must be ascii, binary_little_endian or binary_big_endian"));
   CHECK_THAT(error_of(ply_header("5", "binary_little_endian") + floats({1, 2, 3})),
              Contains("promises 5 points"));
   CHECK_THAT(error_of("ply\nformat ascii 1.0\nelement face 3\nend_header\n"),

@@ -83,6 +83,11 @@ Points read_ply(const std::string& path) {
   return from_pcl(cloud);
 }
 
+void write_compressed_pcd(const std::string& path, const Points& points) {
+  if (pcl::PCDWriter().writeBinaryCompressed(path, *to_pcl(points)) < 0)
+    throw std::runtime_error(path);
+}
+
 Oriented read_oriented_pcd(const std::string& path) {
   pcl::PointCloud<pcl::PointNormal> cloud;
   if (pcl::io::loadPCDFile(path, cloud) < 0) throw std::runtime_error(path);

@@ -21,6 +21,7 @@ std::vector<double> kth_distance(const Points& cloud, const Points& queries, int
 
 Points read_pcd(const std::string& path);
 Points read_ply(const std::string& path);
+void write_compressed_pcd(const std::string& path, const Points& points);
 
 struct Oriented {
   Points points, normals;
