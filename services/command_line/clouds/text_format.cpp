@@ -35,14 +35,14 @@ bool is_comment(std::string_view line) {
   return line.substr(0, 1) == "#" || line.substr(0, 2) == "//";
 }
 
-using Columns = std::array<std::size_t, 3>;  // of x, y and z
+using TextColumns = std::array<std::size_t, 3>;  // of x, y and z
 
 // Where a line names x, y and z: "x,y,z,intensity", "//X Y Z".
-std::optional<Columns> named_columns(std::string_view line) {
+std::optional<TextColumns> named_columns(std::string_view line) {
   while (!line.empty() && (line.front() == '#' || line.front() == '/')) line.remove_prefix(1);
   std::vector<std::string_view> words;
   split(line, words);
-  Columns columns{};
+  TextColumns columns{};
   for (std::size_t axis = 0; axis < 3; ++axis) {
     const auto found = std::find_if(words.begin(), words.end(), [&](std::string_view word) {
       if (word.size() > 1 && word.front() == '"' && word.back() == '"')
@@ -76,7 +76,7 @@ bool is_text_table(std::string_view bytes) {
 
 PointCloud parse_text_table(std::string_view bytes, const std::string& name) {
   PointCloud cloud;
-  Columns columns = {0, 1, 2};
+  TextColumns columns = {0, 1, 2};
   std::vector<std::string_view> words;
   std::size_t columns_before = 0;
   for (int number = 1; !bytes.empty(); ++number) {

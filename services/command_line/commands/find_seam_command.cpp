@@ -2,20 +2,19 @@
 
 #include <fmt/core.h>
 
-#include <cerrno>
+#include <algorithm>
 #include <cmath>
-#include <cstring>
-#include <fstream>
+#include <functional>
 #include <iostream>
 #include <memory>
 #include <stdexcept>
 
 #include "common/options.hpp"
-#include "services/command_line/clouds/cloud_picture.hpp"
 #include "services/command_line/clouds/point_cloud_file.hpp"
+#include "services/command_line/clouds/viewpoints.hpp"
 #include "services/command_line/commands/say.hpp"
+#include "services/command_line/output/cloud_answer.hpp"
 #include "services/command_line/output/seam_json.hpp"
-#include "services/seam_finding/answer/wording.hpp"
 #include "services/seam_finding/background/plane_background.hpp"
 #include "services/seam_finding/background/surface_background.hpp"
 #include "services/seam_finding/consensus_seam.hpp"
@@ -24,8 +23,10 @@
 namespace arcstart::command_line {
 namespace {
 
-constexpr double kViewHeight = 1000;  // of a viewpoint that is not given, above the plane; mm
 constexpr std::uint64_t kSeed = 1;
+// Answers from two places are one: within what chance draws move them in a cloud without stripes.
+constexpr int kFewestPlaces = 3;  // as many as look at one side of a plate, of eight around it
+constexpr double kSamePlace = 2, kSameAngle = 0.035;  // mm, rad
 
 struct FindSeamOptions {
   std::string cloud, background, picture, stations, cell, joint, units = "mm";
@@ -34,11 +35,6 @@ struct FindSeamOptions {
 
   double mm_per_unit() const { return units == "m" ? 1000 : 1; }
 };
-
-std::string in_words(const Eigen::Vector3d& v, int decimals) {
-  return fmt::format("({:.{}f}, {:.{}f}, {:.{}f})", v.x(), decimals, v.y(), decimals, v.z(),
-                     decimals);
-}
 
 PointCloud read_in_mm(const std::string& path, const FindSeamOptions& options) {
   PointCloud cloud = read_point_cloud(path);
@@ -77,14 +73,54 @@ void set_viewpoint(seam_finding::ScanCloud& cloud, const PointCloud& file,
     say("find-seam",
         fmt::format("seen from the file's VIEWPOINT {} mm", in_words(cloud.viewpoint, 1)));
   } else if (plane) {
-    Eigen::Vector3d middle = Eigen::Vector3d::Zero();
-    for (const auto& point : cloud.points) middle += point / static_cast<double>(cloud.size());
-    cloud.viewpoint = middle + (kViewHeight - plane->signed_distance(middle)) * plane->normal;
+    cloud.viewpoint = viewpoint_above(cloud.points, *plane);
     say("find-seam",
         fmt::format("no viewpoint given: taken as seen from {} mm, 1 m above its dominant plane, "
                     "on the side with more points",
                     in_words(cloud.viewpoint, 0)));
   }
+}
+
+bool same_seam(const seam_finding::SeamResult& a, const seam_finding::SeamResult& b) {
+  const double cos = std::cos(kSameAngle);
+  return (a.start - b.start).norm() < kSamePlace && (a.end - b.end).norm() < kSamePlace &&
+         a.normals[0].dot(b.normals[0]) > cos && a.normals[1].dot(b.normals[1]) > cos;
+}
+
+// What is found from elsewhere, where nobody said where the sensor was and from the likeliest place
+// there is no seam. One answer alone counts, and one that does not hang on the place; others are
+// named.
+void look_from_elsewhere(seam_finding::ScanCloud& cloud, seam_finding::SeamResult& result,
+                         const std::vector<Eigen::Vector3d>& places,
+                         const std::function<seam_finding::SeamResult()>& find) {
+  struct Found {
+    Eigen::Vector3d from;
+    int places;
+    seam_finding::SeamResult seam;
+  };
+  std::vector<Found> found;
+  const Eigen::Vector3d first = cloud.viewpoint;
+  for (const Eigen::Vector3d& place : places) {
+    cloud.viewpoint = place;
+    seam_finding::SeamResult seen = find();
+    if (seen.verdict != seam_finding::SeamResult::Verdict::kFound) continue;
+    const auto same = std::find_if(found.begin(), found.end(),
+                                   [&](const Found& other) { return same_seam(other.seam, seen); });
+    if (same != found.end())
+      ++same->places;
+    else
+      found.push_back({place, 1, std::move(seen)});
+  }
+  cloud.viewpoint = first;
+  const bool sure = found.size() == 1 && found[0].places >= kFewestPlaces;
+  for (const Found& seen : found)
+    say("find-seam",
+        fmt::format("from {} mm a seam is seen, {} mm to {} mm{}", in_words(seen.from, 0),
+                    in_words(seen.seam.start, 1), in_words(seen.seam.end, 1),
+                    sure ? "" : ": if the sensor was there, give --viewpoint"));
+  if (!sure) return;
+  cloud.viewpoint = found[0].from;
+  result = std::move(found[0].seam);
 }
 
 void set_search_direction(seam_finding::ScanCloud& cloud, const FindSeamOptions& options) {
@@ -96,70 +132,6 @@ void set_search_direction(seam_finding::ScanCloud& cloud, const FindSeamOptions&
   }
   cloud.search_direction =
       Eigen::Map<const Eigen::Vector3d>(options.search_direction.data()).normalized();
-}
-
-void draw(const seam_finding::ScanCloud& cloud, const seam_finding::SeamResult& result,
-          const std::optional<Plane>& plane, const FindSeamOptions& options) {
-  enum Part : char { kOther, kBackground, kFirst, kSecond };
-  std::vector<Part> parts(cloud.points.size(), kOther);
-  for (const int i : result.background) parts[i] = kBackground;
-  for (const int i : result.plates[0]) parts[i] = kFirst;
-  for (const int i : result.plates[1]) parts[i] = kSecond;
-  CloudPicture picture;
-  for (int i = 0; i < cloud.size(); ++i)
-    (parts[i] == kOther        ? picture.others
-     : parts[i] == kBackground ? picture.background
-                               : picture.plates[parts[i] - kFirst])
-        .push_back(cloud.points[i]);
-  for (const auto& other : result.alternatives)
-    picture.alternatives.emplace_back(other.start, other.end);
-  if (plane) picture.up = plane->normal;
-  picture.toward_viewer = picture.up + picture.up.unitOrthogonal();
-  picture.title = options.cloud + ": " + in_words(result.reason);
-  if (result.verdict == seam_finding::SeamResult::Verdict::kFound) {
-    picture.seam = {result.start, result.end};
-    picture.toward_viewer = result.normals[0] + result.normals[1] - 0.6 * result.direction;
-    picture.title = fmt::format("{}: {}, start {} mm", options.cloud, result.joint_type,
-                                in_words(result.start, 1));
-  }
-  draw_cloud(picture, options.picture);
-  say("find-seam", "picture: " + options.picture);
-}
-
-// What was measured along the seam, a line a place. Throws PointCloudFileError where it cannot be
-// written.
-void write_stations(const seam_finding::SeamResult& result, const std::string& path) {
-  std::string text = "distance,x,y,z,residual,tack,gap\n";  // mm
-  for (const seam_finding::SeamMeasurement& place : result.stations)
-    text += fmt::format("{:.3f},{:.4f},{:.4f},{:.4f},{},{},{}\n", place.along, place.position.x(),
-                        place.position.y(), place.position.z(),
-                        place.residual < 0 ? "" : fmt::format("{:.4f}", place.residual),
-                        place.tack ? 1 : 0, place.gap < 0 ? "" : fmt::format("{:.3f}", place.gap));
-  std::ofstream file(path, std::ios::binary);
-  file << text;
-  file.close();
-  if (!file) throw PointCloudFileError(path + ": cannot be written: " + std::strerror(errno));
-  say("find-seam", "stations: " + path);
-}
-
-void tell(const seam_finding::SeamResult& result) {
-  switch (result.verdict) {
-    case seam_finding::SeamResult::Verdict::kFound:
-      say("find-seam",
-          fmt::format("found {}, start {} mm, end {} mm, direction {}; {}", result.joint_type,
-                      in_words(result.start, 2), in_words(result.end, 2),
-                      in_words(result.direction, 4), in_words(result.remarks)));
-      break;
-    case seam_finding::SeamResult::Verdict::kAmbiguous:
-      say("find-seam", "ambiguous: " + in_words(result.reason));
-      break;
-    case seam_finding::SeamResult::Verdict::kRefused:
-      say("find-seam", "refused: " + in_words(result.reason));
-      break;
-  }
-  for (const auto& other : result.alternatives)
-    say("find-seam", fmt::format("also {} mm to {} mm, score {:.1f}: {}", in_words(other.start, 1),
-                                 in_words(other.end, 1), other.score, in_words(other.reason)));
 }
 
 int run(const FindSeamOptions& options) {
@@ -185,18 +157,32 @@ int run(const FindSeamOptions& options) {
   } else if (options.remove_plane && plane) {
     background = std::make_unique<seam_finding::PlaneBackground>(cloud, *plane);
   }
-  const seam_finding::SeamResult result =
-      seam_finding::find_consensus_seam(cloud, *background, settings, kSeed);
+  const auto find = [&] {
+    return seam_finding::find_consensus_seam(cloud, *background, settings, kSeed);
+  };
+  seam_finding::SeamResult result = find();
+  using Code = seam_finding::Reason::Code;
+  const bool hangs_on_viewpoint =
+      result.reason.code == Code::kNoJoint || result.reason.code == Code::kNoPair;
+  if (hangs_on_viewpoint && plane && !cloud.viewpoint_known)
+    look_from_elsewhere(cloud, result,
+                        other_viewpoints(cloud.points, *plane, !options.remove_plane), find);
 
-  tell(result);
+  for (const std::string& line : answer_lines(result)) say("find-seam", line);
   if (options.json) {
     seam_t seam = seam_finding::empty_seam();
     seam_finding::fill_in(seam, result);
     seam.points = cloud.size();
     std::cout << seam_to_json_line(seam) << "\n";
   }
-  if (!options.picture.empty()) draw(cloud, result, plane, options);
-  if (!options.stations.empty()) write_stations(result, options.stations);
+  if (!options.picture.empty()) {
+    draw_answer(cloud, result, plane, options.cloud, options.picture);
+    say("find-seam", "picture: " + options.picture);
+  }
+  if (!options.stations.empty()) {
+    write_stations(result, options.stations);
+    say("find-seam", "stations: " + options.stations);
+  }
   return result.verdict == seam_finding::SeamResult::Verdict::kFound ? 0 : 1;
 }
 
@@ -225,7 +211,8 @@ void add_find_seam_command(CLI::App& parent, int& exit_code) {
   command
       .option("--viewpoint", options->viewpoint,
               "Where the sensor was, x,y,z; without it the file's, else 1 m above the "
-              "dominant plane, on the side with more points")
+              "dominant plane, on the side with more points, and where no seam is seen from "
+              "there, from wherever one alone is")
       .vector()
       .check(finite);
   command

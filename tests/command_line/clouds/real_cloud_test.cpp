@@ -1,11 +1,14 @@
-// A scan of a real Tee of two square tubes, against the same Tee sampled from its CAD model and
-// registered by PCL's ICP.
+// Clouds from files. The judge of a scan of a real Tee of two square tubes is the same Tee sampled
+// from its CAD model and registered by PCL's ICP.
 #include <sys/wait.h>
+#include <unistd.h>
 
 #include <catch2/catch.hpp>
 #include <cstdio>
 #include <filesystem>
+#include <fstream>
 #include <nlohmann/json.hpp>
+#include <random>
 
 #include "common/geometry.hpp"
 #include "paths.hpp"
@@ -142,6 +145,33 @@ TEST_CASE("real clouds without a straight seam get no line that is not there") {
     CHECK(two.json["verdict"] != "found");
     CHECK(!two.json["reason"].get<std::string>().empty());
   }
+}
+
+TEST_CASE("a tee is found though nobody says from where it was seen") {
+  // An upright of 200 x 50 mm, more densely sampled than its base, which reaches farther behind it
+  // than before it: where more points lie is the wrong side to look from.
+  const fs::path path =
+      fs::temp_directory_path() / ("arcstart-tee-" + std::to_string(::getpid()) + ".xyz");
+  std::ofstream file(path);
+  std::mt19937 engine(6);
+  std::normal_distribution<double> noise(0, 0.05);
+  std::uniform_real_distribution<double> share(0, 1);
+  for (int i = 0; i < 12000; ++i)
+    file << 200 * share(engine) << " " << 10 + noise(engine) << " " << 50 * share(engine) << "\n";
+  for (int i = 0; i < 12000; ++i) {
+    const double y = -50 + 100 * share(engine);
+    if (y < 4 || y > 10) file << 200 * share(engine) << " " << y << " " << noise(engine) << "\n";
+  }
+  file.close();
+  const Run found = run(path.string() + " --json");
+  CHECK(found.exit_code == 0);
+  CHECK(found.json["verdict"] == "found");
+  const Line seam = {Eigen::Vector3d(0, 10, 0), Eigen::Vector3d::UnitX()};
+  CHECK(seam.distance(vector_of(found.json["start"])) < 0.1);
+  CHECK(seam.distance(vector_of(found.json["end"])) < 0.1);
+  // From behind there is none, and whoever says so is taken at his word.
+  CHECK(run(path.string() + " --json --viewpoint 100,-990,12").exit_code == 1);
+  fs::remove(path);
 }
 
 TEST_CASE("bad input ends with 2") {
