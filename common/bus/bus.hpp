@@ -88,8 +88,7 @@ class Bus {
     SenderWatch* const senders = is_measurement ? &watch_senders(channel) : nullptr;
     subscribe_bytes(
         channel, queue,
-        [this, channel, senders, handler = std::move(handler)](const Bytes& bytes,
-                                                               const std::string&) {
+        [=, this, handler = std::move(handler)](const Bytes& bytes, const std::string&) {
           Message message{};  // fresh: lcm-gen leaves old elements in a vector whose count is 0
           const int size = static_cast<int>(bytes.size());
           std::string error;
