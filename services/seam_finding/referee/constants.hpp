@@ -60,6 +60,9 @@ struct RefereeConstants {
   // Of a round corner's radius, what its arc keeps off the planes' line, at least: 0.41 at 90 deg,
   // 0.15 at 120; and the differences of the radii seen, at most, quartile to quartile - bench.
   double round_clearance = 0.3, one_radius = 0.3;
+  // mm; radius of a root that is no seam, at least - 3 in the smallest rolled angles (EN 10056-1:
+  // 3.5), and what the image takes of it.
+  double least_root = 2.4;
   // Shares of what tells, stripes at the seam or places of one beside it: of what must be shown; of
   // what leaves no doubt; and of what may be otherwise by accident - bench.
   double shown_share = 0.6, nearly_all = 0.75, by_accident = 0.15;

@@ -92,7 +92,7 @@ Examination examine(const ScanCloud& cloud, const ThinnedScan& thinned, const Se
   examination.explained = explained_by(views, length);
   examination.contradiction =
       contradiction_of(seam, views, examination.shapes, examination.edges, examination.spacing);
-  if (!examination.contradiction && is_outside_corner(seam))
+  if (!examination.contradiction && !examination.edges[0] && !examination.edges[1])
     if (const auto radius = corner_radius(
             cloud, indices_of(thinned), seam,
             std::max(examination.shapes[0].tolerance, examination.shapes[1].tolerance)))
