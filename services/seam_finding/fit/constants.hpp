@@ -21,6 +21,12 @@ struct FitConstants {
   int line_places = 4;
   // Passes of reweighting for a line - bench: rows lap, butt, v.
   int line_passes = 12;
+  // Places from which a line's first guesses are drawn, two each, at most: with three in ten off
+  // the line, every other guess is right - bounds the time.
+  std::size_t line_starts = 24;
+  // Share of the places, at least, that lie together on a line which least squares misses - bench:
+  // with fewer, either of two lines may be the edge.
+  double line_majority = 0.7;
   // Points, at least, of a plane that is fitted robustly - bench.
   std::size_t plane_points = 20;
   // Points summed in floats before doubles take over - keeps the sums good to a millionth.

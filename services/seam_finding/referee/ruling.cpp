@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <optional>
 #include <utility>
 
 #include "services/seam_finding/referee/constants.hpp"
@@ -14,6 +15,39 @@ using Code = Reason::Code;
 // Replaces the covariance's part along the seam.
 void set_variance_along(const Eigen::Vector3d& along, double variance, Eigen::Matrix3d& matrix) {
   matrix += (variance - along.dot(matrix * along)) * along * along.transpose();
+}
+
+// How far the edges of plates side by side lie beside the seam, at its ends; mm across it.
+struct BesideSeam {
+  Eigen::Vector3d across = Eigen::Vector3d::Zero();
+  double at_start = 0, at_end = 0;
+};
+
+// The seam lies in the middle of their edges, or at the upper one's. Nothing where none is known.
+std::optional<BesideSeam> beside_seam(const Examination& examination, const SeamResult& seam) {
+  BesideSeam beside;
+  double plates = 0;
+  for (int j = 0; j < 2; ++j) {
+    if (!examination.edges[j] || !examination.edges[j]->known) continue;
+    const SeamEdges& edges = *examination.edges[j];
+    const double sign = plates == 0 ? 1 : -1;
+    beside.at_start += sign * edges.at_start, beside.at_end += sign * edges.at_end;
+    if (plates == 0) beside.across = seam.faces[j].away;
+    ++plates;
+  }
+  if (plates == 0) return std::nullopt;
+  beside.at_start /= plates, beside.at_end /= plates;
+  return beside;
+}
+
+// Edges that lie beside the seam by more at one end than at the other are turned against it.
+void widen_direction(const Examination& examination, SeamResult& seam) {
+  const auto edges = beside_seam(examination, seam);
+  if (!edges || !seam.accuracy || seam.accuracy->direction < 0) return;
+  const double apart = edges->at_end - edges->at_start;
+  if (std::abs(apart) > kReferee.place)
+    seam.accuracy->direction =
+        std::hypot(seam.accuracy->direction, apart / (seam.end - seam.start).norm());
 }
 
 class EndRuling {
@@ -95,20 +129,12 @@ class EndRuling {
     covariance() += off * off * seam_.normals[j] * seam_.normals[j].transpose();
   }
 
-  // Between plates side by side the seam lies in the middle of their edges, or at the upper one's.
   void widen_beside() {
-    double off = 0, plates = 0;
-    Eigen::Vector3d across = Eigen::Vector3d::Zero();
-    for (int j = 0; j < 2; ++j) {
-      if (!examination_.edges[j] || !examination_.edges[j]->known) continue;
-      const SeamEdges& edges = *examination_.edges[j];
-      off += (plates == 0 ? 1 : -1) * (start_ ? edges.at_start : edges.at_end);
-      if (plates == 0) across = seam_.faces[j].away;
-      ++plates;
-    }
-    if (plates == 0 || !seam_.accuracy) return;
-    off /= plates;
-    if (std::abs(off) > kReferee.place) covariance() += off * off * across * across.transpose();
+    const auto edges = beside_seam(examination_, seam_);
+    if (!edges || !seam_.accuracy) return;
+    const double off = start_ ? edges->at_start : edges->at_end;
+    if (std::abs(off) > kReferee.place)
+      covariance() += off * off * edges->across * edges->across.transpose();
   }
 
   const Examination& examination_;
@@ -135,6 +161,7 @@ void rule(const Examination& examination, SeamResult& seam) {
     seam = std::move(refused);
     return;
   }
+  widen_direction(examination, seam);
   EndRuling(examination, true, seam).rule();
   EndRuling(examination, false, seam).rule();
 }

@@ -28,6 +28,37 @@ TEST_CASE("a border is the line through its places, outliers aside, with its own
   CHECK(slopes_within > 180);
 }
 
+TEST_CASE("places that are off together, as on a tack's flank, do not draw a border aside") {
+  constexpr double kAt = 30, kSlope = -0.25, kNoise = 0.1;
+  int true_within = 0;
+  for (unsigned seed = 1; seed <= 200; ++seed) {
+    std::mt19937 engine(seed);
+    std::normal_distribution<double> noise(0, kNoise);
+    std::vector<LinePlace> places;
+    for (int i = 0; i < 19; ++i)
+      places.push_back({i * 1.5 - 20, kAt + kSlope * (i * 1.5 - 20) + noise(engine), 0, kNoise});
+    // At the end, where they have a long lever.
+    for (int i = 0; i < 7; ++i)
+      places.push_back(
+          {22 + i * 2.0, kAt + kSlope * (22 + i * 2.0) - 4 + noise(engine), 0, kNoise});
+    const auto fit = fit_line(places, 0.1);
+    REQUIRE(fit);
+    true_within += std::abs(fit->slope - kSlope) < 3 * std::sqrt(fit->slope_variance) &&
+                   std::abs(fit->across_at(0) - kAt) < 3 * std::sqrt(fit->variance_at(0));
+    CHECK(std::sqrt(fit->slope_variance) < 0.01);
+  }
+  CHECK(true_within >= 196);
+}
+
+TEST_CASE("of two lines that share the places evenly neither is the border, and the fit says so") {
+  std::vector<LinePlace> places;
+  for (int i = 0; i < 20; ++i) places.push_back({i * 4.0, i % 2 == 0 ? 0.0 : 2.0, 0, 0.1});
+  const auto fit = fit_line(places, 0.1);
+  REQUIRE(fit);
+  CHECK(fit->at_middle == Approx(1).margin(0.2));
+  CHECK(std::sqrt(fit->variance) > 0.2);
+}
+
 TEST_CASE("points on a cut give the border at the height wanted") {
   std::vector<LinePlace> places;
   for (int i = 0; i < 20; ++i)

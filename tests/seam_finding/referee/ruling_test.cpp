@@ -123,3 +123,22 @@ TEST_CASE("edges that lie beside the seam widen it across") {
   CHECK(std::sqrt(seam.accuracy->end(1, 1)) == Approx(0.1));
   CHECK(along(seam.accuracy->start) == Approx(0.1));
 }
+
+TEST_CASE("edges that are turned against the seam widen its direction, those beside it do not") {
+  for (const double at_end : {2.0, 0.6}) {
+    SeamResult seam = answer(0.1);
+    seam.accuracy->direction = 0.005;
+    Examination examination = bounded(0, 0);
+    for (int j = 0; j < 2; ++j) {
+      seam.faces[j].away = (j == 0 ? -1 : 1) * Eigen::Vector3d::UnitY();
+      examination.edges[j].emplace();
+      examination.edges[j]->known = true;
+      examination.edges[j]->at_start = (j == 0 ? -0.6 : 0.6);
+      examination.edges[j]->at_end = (j == 0 ? -at_end : at_end);
+    }
+    rule(examination, seam);
+    // Over 100 mm.
+    const double turned = at_end > 1 ? 1.4 / 100 : 0;
+    CHECK(seam.accuracy->direction == Approx(std::hypot(0.005, turned)));
+  }
+}

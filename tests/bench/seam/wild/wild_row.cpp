@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
+#include <algorithm>
 #include <cmath>
 
 #include "tests/bench/seam/figures.hpp"
@@ -14,9 +15,23 @@ using Where = SilentError::Where;
 using seam_finding::synthetic::WildSeamSight;
 using seam_finding::synthetic::WildSight;
 
+namespace {
+
+// Closed form: the tops lie in one plane and the edges coincide, so that no stripe differs from one
+// over a single plate. Another colour or roughness is no other surface, and a corner of the outline
+// where one plate ends before the other is one that a single plate may have.
+bool is_traceless(const cell_simulator::WildSeam& seam) {
+  return seam.joint_type == "butt" && seam.gap_start == 0 && seam.gap_end == 0 &&
+         seam.mismatch_start == 0 && seam.mismatch_end == 0;
+}
+
+}  // namespace
+
 WildFacts facts_of(const cell_simulator::WildScene& scene, const cell_simulator::WildTruth& truth,
                    const std::vector<WildSeamSight>& sights, int seed) {
-  return {seed, truth.wrong, scene.scan.pitch_mm, sights, tags_of(scene, truth, sights)};
+  const bool traceless =
+      !truth.seams.empty() && std::all_of(truth.seams.begin(), truth.seams.end(), is_traceless);
+  return {seed, truth.wrong, traceless, scene.scan.pitch_mm, sights, tags_of(scene, truth, sights)};
 }
 
 void WildRow::add(const WildFacts& facts, const seam_t& seam, const WildJudgement& judgement) {
@@ -24,6 +39,7 @@ void WildRow::add(const WildFacts& facts, const seam_t& seam, const WildJudgemen
   bool in_view = false;
   for (const WildSeamSight& sight : facts.sights) in_view = in_view || sight.start.in_view;
   in_view_ += in_view;
+  traceless_ += in_view && facts.traceless;
   for (const SilentError& error : judgement.silent)
     fmt::print("  {} seed {}: silent {}{} | {}\n", name_, facts.seed, error.text,
                judgement.by_robot ? ", as the robot errs" : "", fmt::join(facts.tags, " "));
@@ -43,6 +59,7 @@ void WildRow::add(const WildFacts& facts, const seam_t& seam, const WildJudgemen
   wrong_ += !judgement.right;
   if (!judgement.right) return;
   answered_ += in_view;
+  traceless_answered_ += in_view && facts.traceless;
   lateral_.push_back(std::hypot(judgement.start.across, judgement.start.height));
   direction_.push_back(judgement.direction);
   if (seam.end_visibility == seam_t::SEEN) end_.push_back(judgement.end.distance());
@@ -93,6 +110,11 @@ void WildRow::finish(nlohmann::json& json) const {
       percentile(start_, 0.95), percentile(start_, 1), mean(crossed_start_),
       percentile(crossed_start_, 0.95), mean(bounded_start_), share(within_2_, sure_),
       share(beyond_3_, sure_), ratio);
+  const double of_traces = share(answered_ - traceless_answered_, in_view_ - traceless_);
+  if (traceless_ > 0)
+    fmt::print(
+        "  {}: {} of {} in view have the surface of one plate; answered of the others {:.3f}\n",
+        name_, traceless_, in_view_, of_traces);
   fmt::print("  {}: refused", name_);
   for (const auto& [code, count] : refusals_) fmt::print(" {} x {},", code, count);
   fmt::print(" {} of them have no seam\n", refused_wrong_parts_);
@@ -103,6 +125,8 @@ void WildRow::finish(nlohmann::json& json) const {
   put("refused", refused_);
   put("in_view", in_view_);
   put("answered", share(answered_, in_view_));
+  put("traceless", traceless_);
+  put("answered_of_traces", of_traces);
   put("seen", share(seen_, crossed_));
   put("silent", silent_scenes_);
   put("silent_by_robot", silent_by_robot_);

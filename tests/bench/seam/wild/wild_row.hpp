@@ -15,7 +15,9 @@ namespace arcstart {
 // What is known of one scene, beside the answer to it.
 struct WildFacts {
   int seed = 0;
-  bool wrong = false;  // there is no seam to be found
+  bool wrong = false;      // there is no seam to be found
+  bool traceless = false;  // plates meet edge to edge, at one level, without any gap: two of them
+                           // have the very surface of one
   double pitch_mm = 0;
   std::vector<seam_finding::synthetic::WildSeamSight> sights;  // of each true seam
   std::vector<std::string> tags;
@@ -33,8 +35,9 @@ class WildRow {
 
   // One line to the table, and the figures as NAME.n, NAME.silent_start and so on.
   // answered: share of the scenes with a start in view whose seam was found and right, or told to
-  // be one of several where it is. seen: share of right answers with a start that stripes cross
-  // that say it is seen. Errors of starts are of right answers that say they are seen;
+  // be one of several where it is. answered_of_traces: the same without those whose plates have the
+  // surface of one, which nobody can answer. seen: share of right answers with a start that stripes
+  // cross that say it is seen. Errors of starts are of right answers that say they are seen;
   // within_2sigma and beyond_3sigma are of all starts that carry a deviation, less what the truth
   // leaves open.
   void finish(nlohmann::json& json) const;
@@ -44,7 +47,7 @@ class WildRow {
 
   std::string name_;
   int seeds_ = 0, wrong_ = 0, refused_ = 0, refused_wrong_parts_ = 0;
-  int in_view_ = 0, answered_ = 0, crossed_ = 0, seen_ = 0;
+  int in_view_ = 0, answered_ = 0, traceless_ = 0, traceless_answered_ = 0, crossed_ = 0, seen_ = 0;
   int silent_start_ = 0, silent_end_ = 0, silent_else_ = 0, silent_scenes_ = 0;
   int silent_by_robot_ = 0;  // scenes
   int sure_ = 0, within_2_ = 0, beyond_3_ = 0;
