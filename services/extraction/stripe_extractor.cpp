@@ -15,7 +15,6 @@ namespace {
 // px from the image's border: on the outermost pixels whatever grows brighter towards it looks like
 // a line along it.
 constexpr int kBorder = 2;
-constexpr double kLeastSigma = 1.2, kLargestSigma = 12;  // px, followed
 constexpr double kSigmaStep = 1.0 / 32;  // px, of the sigma followed: kernels need not be made anew
 constexpr double kFollowing = 0.2;       // share of the difference taken up by each image
 // Of centres by speckle, in sigma: of a contrast of 0.3 it is 0.08 to 0.12.
@@ -177,14 +176,14 @@ void StripeExtractor::measure(const GreyImage& image) {
         i < found ? by_noise : std::hypot(by_noise, end_deviations_[i - found]);
     centres_.push_back({p.u, p.v, static_cast<float>(deviation), static_cast<float>(sigma)});
   }
+  const bool by_width = settings_.sigma_px == 0 && widths_differ();
+  if (by_width) measure_by_width(image);
   double widest = used_sigma_;
-  if (mixed_)
-    for (const Branch& branch : selection_.branches)
-      if (branch.chosen)
-        for (const int i : branch.points) widest = std::max(widest, sigma_of(i));
+  for (const Branch& branch : selection_.branches)
+    if (branch.chosen)
+      for (const int i : branch.points) widest = std::max<double>(widest, centres_[i].sigma);
   scatter_ = centre_noise(selection_.branches, centres_, widest, &memory_);
-  if (mixed_) return;
-  if (settings_.sigma_px != 0 || !settings_.smooth_course) return;
+  if (mixed_ || by_width || settings_.sigma_px != 0 || !settings_.smooth_course) return;
   const double share = settings_.measuring_sigma_per_width / settings_.sigma_per_width;
   const double sigma =
       std::max(kLeastSigma, std::round(share * used_sigma_ / kSigmaStep) * kSigmaStep);
@@ -207,7 +206,14 @@ void StripeExtractor::measure_at(const GreyImage& image, double sigma) {
   detector_.detect_about(image, measuring_kernels_,
                          settings_.weakest_share * strong_curvature(sigma), border(), about_, reach,
                          measured_);
-  refine_centres(points_, selection_, reach, sigma, noise_, measured_, finer_);
+  const MeasuredAgain measured(measured_, selection_.along_rows);
+  for (const Branch& branch : selection_.branches)
+    if (branch.chosen)
+      for (const int i : branch.points)
+        if (const RidgePoint* q = measured.beside(points_[i], reach))
+          finer_[i] = {q->u, q->v,
+                       static_cast<float>(centre_deviation(q->curvature, sigma, noise_)),
+                       static_cast<float>(sigma)};
 }
 
 int StripeExtractor::border() const {

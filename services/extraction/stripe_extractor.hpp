@@ -36,6 +36,9 @@ constexpr double kRaised[] = {1, 2, 4, 8};
 // A course so many times as strong as the other lines in the image is no line of its texture.
 constexpr double kStandsOut = 1.7;
 
+constexpr double kLeastSigma = 1.2, kLargestSigma = 12;  // px, followed
+constexpr double kBesideCourse = 10;  // px within which a line is the course's own at another scale
+
 class StripeExtractor {
  public:
   explicit StripeExtractor(const ExtractionSettings& settings)
@@ -72,9 +75,13 @@ class StripeExtractor {
   void refuse();
 
   // stripe_extractor_mixed.cpp
-  bool may_be_mixed();
   void look_at_all_scales(const GreyImage& image);
   void try_all_scales(const GreyImage& image);
+  // Strength of the middle one of the lines beside the course at each scale; a point's scale's.
+  std::array<double, 4> others_of_scales();
+  double others_of(const std::array<double, 4>& others, int point) const;
+  bool widths_differ();  // along the course, by more than one sigma does for
+  void measure_by_width(const GreyImage& image);
 
   void follow(const GreyImage& image);
   void follow_scale();
@@ -117,7 +124,8 @@ class StripeExtractor {
   GaussianKernels measuring_kernels_;
   std::vector<RidgePoint> about_, measured_;
   std::vector<float> no_widths_;
-  std::vector<float> widths_;  // of each point; px, 0 where not measured
+  std::vector<float> wanted_sigmas_, sigmas_;  // measure_by_width: of each point, and each once
+  std::vector<float> widths_;                  // of each point; px, 0 where not measured
   StripePath selection_;
   StripeSmoother course_;
   std::vector<SmoothedPoint> course_points_;  // of a branch

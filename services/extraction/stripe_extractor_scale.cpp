@@ -25,8 +25,7 @@ constexpr double kOfFaint = 0.4;
 // image. Rows texture, neighbour and mixed_width: stripes have 4.6 times and more, and 7 a line;
 // ground, milled and brushed steel alone at most 2.3 times, or 1.3 a line.
 constexpr double kOutdoes = 3, kLeastWeight = 2;
-constexpr double kBesideCourse = 10;  // px within which a line is the course's own at another scale
-constexpr int kSearchEvery = 8;       // images of a scan, where none was found
+constexpr int kSearchEvery = 8;  // images of a scan, where none was found
 
 bool fits(double wanted, double sigma) { return std::abs(wanted - sigma) < kNearEnough * sigma; }
 
@@ -55,14 +54,16 @@ bool StripeExtractor::in_texture() const {
 
 // A piece of the course that is no stronger than the lines beside it is one of them.
 void StripeExtractor::drop_texture() {
-  const CourseEvidence all = evidence();
-  if (all.others == 0) return;
+  const double others = evidence().others;
+  const auto others_by_scale = mixed_ ? others_of_scales() : std::array<double, 4>{};
   const double factor = strength_factor(used_sigma_, settings_.strength_exponent);
   for (Branch& branch : selection_.branches) {
     if (!branch.chosen) continue;
-    double sum = 0;
-    for (const int i : branch.points) sum += factor * points_[i].curvature;
-    branch.chosen = sum >= kStandsOut * all.others * static_cast<double>(branch.points.size());
+    double beyond = 0;
+    for (const int i : branch.points)
+      beyond += factor * points_[i].curvature -
+                kStandsOut * (mixed_ ? others_of(others_by_scale, i) : others);
+    branch.chosen = beyond >= 0;
   }
   auto chosen_end = selection_.branches.begin();  // by rotating: it takes no memory
   for (auto at = chosen_end; at != selection_.branches.end(); ++at)
