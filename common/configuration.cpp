@@ -14,7 +14,7 @@ namespace {
 // A section is a service's folder, or the bus that all share.
 const std::set<std::string> kSections = {"bus",         "sensor_capture", "robot_pose",
                                          "extraction",  "reconstruction", "seam_finding",
-                                         "calibration", "cell_simulator"};
+                                         "calibration", "cell_simulator", "robot_link"};
 
 std::string where(const std::string& file, const YAML::Node& node) {
   const YAML::Mark mark = node.Mark();

@@ -262,6 +262,20 @@ std::string meaning_error(const clock_probe_t& m) {
   return checks.error();
 }
 
+std::string meaning_error(const delivery_t& m) {
+  Checks checks;
+  checks.require(is_time(m.utime) && is_time(m.run_id), "utime or run_id is no time")
+      .require(m.progress >= delivery_t::NOTHING && m.progress <= delivery_t::DONE,
+               "progress is none of delivery_t's")
+      .require(m.request >= 0 && m.verdict >= 0 && m.delivered_utime >= 0 && m.scan_id >= 0,
+               "a number below 0")
+      .require(is_name(m.job) && is_name(m.part), kNoName)
+      .require(are_lengths(m.approach) && are_lengths(m.start) && are_lengths(m.end),
+               "a position that is no length")
+      .require(is_unit(m.quaternion, 4), "the quaternion is not of length 1");
+  return checks.error();
+}
+
 std::string meaning_error(const truth_t& m) {
   Checks checks;
   checks.require(m.utime > 0, "utime below 0")

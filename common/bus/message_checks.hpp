@@ -8,6 +8,7 @@
 #include <arcstart/camera_command_t.hpp>
 #include <arcstart/cell_command_t.hpp>
 #include <arcstart/clock_probe_t.hpp>
+#include <arcstart/delivery_t.hpp>
 #include <arcstart/image_t.hpp>
 #include <arcstart/profile_t.hpp>
 #include <arcstart/robot_pose_t.hpp>
@@ -35,6 +36,7 @@ std::string meaning_error(const seam_t& message);
 std::string meaning_error(const service_status_t& message);
 std::string meaning_error(const cell_command_t& message);
 std::string meaning_error(const clock_probe_t& message);
+std::string meaning_error(const delivery_t& message);
 std::string meaning_error(const truth_t& message);
 
 }  // namespace arcstart

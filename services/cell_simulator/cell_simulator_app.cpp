@@ -86,6 +86,7 @@ void CellSimulatorApp::carry_out(const cell_command_t& command, std::int64_t now
       cell_.put(kind, command.seed < 0 ? cell_.seed() : static_cast<std::uint64_t>(command.seed));
     }
     if (command.move) cell_.go_to(now, pose);
+    if (command.scene == cell_command_t::WORKPIECE) cell_.press_cycle_start();
     command_id_ = command.command_id;
   } catch (const std::exception& error) {
     refusal_ = fmt::format("{} {} refused: {}", kCommand, command.command_id, error.what());

@@ -40,13 +40,18 @@ struct CellSimulatorSettings {
   std::string hspo_host = "127.0.0.1";  // where its packets go
   int hspo_port = 60015;
   double hspo_period_ms = 20;
-  double hspo_tick_us = 1;          // of the controller's clock
-  bool hspo_joints = true;          // beside the tool centre point, in the same packet
-  int j519_port = 0;                // at 127.0.0.1; 0: not served
-  int j519_version = 4;             // the newest that it has: 3 or 4
-  bool j519_tool = true;            // positions of the tool centre point, else of the flange
-  int rtde_port = 0;                // at 127.0.0.1; 0: not served
-  double position_noise_mm = 0.02;  // standard deviation on x, y and z each
+  double hspo_tick_us = 1;  // of the controller's clock
+  bool hspo_joints = true;  // beside the tool centre point, in the same packet
+  int j519_port = 0;        // at 127.0.0.1; 0: not served
+  int j519_version = 4;     // the newest that it has: 3 or 4
+  bool j519_tool = true;    // positions of the tool centre point, else of the flange
+  int rtde_port = 0;        // at 127.0.0.1; 0: not served
+  // FANUC's RMI beside them, with the robot's own program, which asks as soon as work is put in.
+  int rmi_port = 0;  // at 127.0.0.1; 0: not served, and no program runs
+  double rmi_request_ms = 66;
+  std::array<double, 6> rmi_frame{};  // UFRAME[1]: X Y Z mm, W P R deg. UTOOL[1] is the tool
+  double rmi_tool_off_mm = 0;         // by which UTOOL[1] is wrong, along the flange's z
+  double position_noise_mm = 0.02;    // standard deviation on x, y and z each
   double robot_clock_start_s = 1234;
   double robot_clock_drift_ppm = -9;
   // How far the controller is wrong in a pose of the calibration: standard deviations an axis, of
@@ -99,6 +104,10 @@ struct CellSimulatorSettings {
     visitor("j519_version", j519_version, between(1, 4));
     visitor("j519_tool", j519_tool);
     visitor("rtde_port", rtde_port, between(0, 65535));
+    visitor("rmi_port", rmi_port, between(0, 65535));
+    visitor("rmi_request_ms", rmi_request_ms, between(0, 10000));
+    visitor("rmi_frame", rmi_frame);
+    visitor("rmi_tool_off_mm", rmi_tool_off_mm, between(-100, 100));
     visitor("position_noise_mm", position_noise_mm, between(0, 10));
     visitor("robot_clock_start_s", robot_clock_start_s, between(0, 1e9));
     visitor("robot_clock_drift_ppm", robot_clock_drift_ppm, between(-1000, 1000));

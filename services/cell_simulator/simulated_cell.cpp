@@ -145,9 +145,36 @@ void SimulatedCell::serve_protocols(std::int64_t now) {
         RtdeServerSettings{"127.0.0.1", settings_.rtde_port, tool_of(settings_), own},
         report(*rtde_controller_));
   }
+  if (settings_.rmi_port > 0) {
+    const auto& f = settings_.rmi_frame;
+    memory_.frames[1] = {f[0], f[1], f[2], f[3], f[4], f[5]};
+    memory_.tools[1] = to_xyzwpr(tool_of(settings_));
+    memory_.tools[1].z += settings_.rmi_tool_off_mm;
+    RmiServerSettings server;
+    server.port = settings_.rmi_port;
+    server.request_ms = settings_.rmi_request_ms;
+    rmi_ =
+        std::make_unique<RmiServer>(server, memory_, [this] { return reported_pose(utime_now()); });
+    program_.emplace(RobotProgramSettings{}, memory_);
+  }
+}
+
+void SimulatedCell::press_cycle_start() {
+  if (program_) program_->start(++part_);
+}
+
+void SimulatedCell::run_program(std::int64_t now) {
+  const auto T_base_tool0 = program_->tick(now, at_rest(now));
+  if (!T_base_tool0) return;
+  const RigidTransform T_base_tool = *T_base_tool0 * tool_of(settings_);
+  if (reaches(T_base_tool))
+    motion_.go_to(now, T_base_tool);
+  else
+    fault_ = "the arm does not reach the position that its program was given";
 }
 
 SimulatedCell::~SimulatedCell() {
+  rmi_.reset();
   rtde_.reset();
   j519_.reset();
   sender_.reset();
@@ -239,6 +266,7 @@ void SimulatedCell::tick(std::int64_t now) {
     fault_ = error.what();
   }
   camera_.tick(now);
+  if (program_) run_program(now);
   if (fault_.empty() && controller_.unreachable() > 0)
     fault_ = "the arm could not follow a pose asked for: its joints stayed behind";
 }

@@ -9,6 +9,8 @@
 #include "services/cell_simulator/camera/gige_camera.hpp"
 #include "services/cell_simulator/cell_faults.hpp"
 #include "services/cell_simulator/cell_simulator_settings.hpp"
+#include "services/cell_simulator/controller/rmi_server.hpp"
+#include "services/cell_simulator/controller/robot_program.hpp"
 #include "services/cell_simulator/image/plate_view.hpp"
 #include "services/cell_simulator/robot/hspo_sender.hpp"
 #include "services/cell_simulator/robot/j519_server.hpp"
@@ -42,6 +44,9 @@ class SimulatedCell {
     motion_.go_to(now, T_base_tool);
   }
   void tick(std::int64_t now);  // at least ten times a second
+  // The robot's own program asks for a scan of what now lies there, and moves to its answer; where
+  // it is served by RMI.
+  void press_cycle_start();
 
   SceneKind kind() const { return kind_; }
   std::uint64_t seed() const { return seed_; }
@@ -64,6 +69,7 @@ class SimulatedCell {
   void render(const SimulatedFrame& frame, std::uint8_t* grey);
   RigidTransform reported_pose(std::int64_t utime) const;
   void serve_protocols(std::int64_t now);
+  void run_program(std::int64_t now);
 
   std::optional<WildScene> wild_;
   CellSimulatorSettings settings_;  // with what a scene of the wild brings along
@@ -86,6 +92,10 @@ class SimulatedCell {
   std::unique_ptr<RobotController> j519_controller_, rtde_controller_;
   std::unique_ptr<J519Server> j519_;
   std::unique_ptr<RtdeServer> rtde_;
+  ControllerMemory memory_;
+  std::unique_ptr<RmiServer> rmi_;
+  std::optional<RobotProgram> program_;
+  int part_ = 0;  // the workpieces that were put in
 };
 
 }  // namespace arcstart::cell_simulator

@@ -53,6 +53,7 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
                                                                   feed<service_status_t>,
                                                                   feed<cell_command_t>,
                                                                   feed<clock_probe_t>,
+                                                                  feed<delivery_t>,
                                                                   feed<truth_t>};
   kFeeds[data[0] % std::size(kFeeds)](data + 1, size - 1);
   return 0;

@@ -10,14 +10,15 @@
 #include "common/service.hpp"
 #include "common/time.hpp"
 #include "services/command_line/output/seam_error.hpp"
+#include "services/command_line/recordings/message_facts.hpp"
 
 namespace arcstart::command_line {
 namespace {
 
 struct CellRequest {
-  std::string cell, sensor = "LASER0", scene;
+  std::string cell, sensor = "LASER0", robot = "ROBOT0", scene;
   std::int64_t seed = -1;
-  bool verdict = false;
+  bool verdict = false, torch = false;
   double timeout_s = 10;
 };
 
@@ -105,6 +106,42 @@ int compare(Bus& bus, const CellRequest& request) {
   return seam->verdict == seam_t::FOUND && !seam_error(*seam, *truth).wrong ? 0 : 1;
 }
 
+// Where the simulated robot's program put the torch's tip, beside the seam's true start.
+int measure_torch(Bus& bus, const CellRequest& request) {
+  std::optional<truth_t> truth;
+  std::optional<delivery_t> delivery;
+  bus.subscribe<truth_t>("CELL_TRUTH", Queue::newest(),
+                         [&](const truth_t& message) { truth = message; });
+  bus.subscribe<delivery_t>(request.robot + "_DELIVERY", Queue::newest(),
+                            [&](const delivery_t& message) { delivery = message; });
+  const auto done = [&] {
+    if (!truth || truth->moving || !delivery) return false;
+    const bool refused = delivery->verdict != 0 && delivery->verdict != delivery_t::VALID;
+    return delivery->progress == delivery_t::DONE ||
+           (refused && delivery->progress >= delivery_t::DELIVERED);
+  };
+  const std::int64_t end = steady_now() + seconds_to_us(request.timeout_s);
+  while (!done() && steady_now() < end) bus.handle(std::chrono::milliseconds(50));
+  if (!done()) {
+    fmt::print(stderr, "cell: {} within {} s\n",
+               !truth      ? "no CELL_TRUTH: no simulated cell runs"
+               : !delivery ? "no DELIVERY: robot_link does not run"
+                           : "the robot's program has not come to its end",
+               request.timeout_s);
+    return 1;
+  }
+  if (delivery->verdict != delivery_t::VALID) {
+    fmt::print(stderr, "cell: the robot was refused: {} ({})\n", printable(delivery->reason),
+               delivery->verdict);
+    return 1;
+  }
+  const double off = std::hypot(truth->tool_position[0] - truth->start[0],
+                                truth->tool_position[1] - truth->start[1],
+                                truth->tool_position[2] - truth->start[2]);
+  fmt::print("torch at the start: {:.2f} mm from the true seam start\n", off);
+  return 0;
+}
+
 }  // namespace
 
 void add_cell_command(CLI::App& parent, int& exit_code) {
@@ -119,19 +156,25 @@ void add_cell_command(CLI::App& parent, int& exit_code) {
   command.option("--seed", request->seed, "Seed of the scene; without it the one in force stays");
   command.flag("--verdict", request->verdict,
                "Print the seam on the bus beside the truth; exit 0 where it is right");
+  command.flag("--torch", request->torch,
+               "Wait for the robot's program, and print how far its torch stands from the seam's "
+               "true start");
+  command.option("--robot", request->robot, "Robot whose torch is meant").show_default();
   command.option("--cell", request->cell, "The cell's file, for its bus; without it the defaults");
   command.option("--sensor", request->sensor, "Sensor whose seam is meant").show_default();
   command.option("--timeout", request->timeout_s, "Longest wait for an answer; s").show_default();
   command.run([request, &exit_code] {
-    if (request->verdict == !request->scene.empty()) {
-      fmt::print(stderr, "cell: give either --scene or --verdict\n");
+    if (int{request->verdict} + int{request->torch} + int{!request->scene.empty()} != 1) {
+      fmt::print(stderr, "cell: give one of --scene, --verdict and --torch\n");
       exit_code = 2;
       return;
     }
     const Configuration configuration =
         request->cell.empty() ? Configuration() : Configuration::from_file(request->cell);
     Bus bus(configuration.read<BusSettings>("bus"));
-    exit_code = request->verdict ? compare(bus, *request) : change_scene(bus, *request);
+    exit_code = request->torch     ? measure_torch(bus, *request)
+                : request->verdict ? compare(bus, *request)
+                                   : change_scene(bus, *request);
   });
 }
 

@@ -11,12 +11,13 @@ namespace {
 
 // Longer endings first: LASER0_SCAN_COMMAND ends with no other, but names are looked up in this
 // order.
-constexpr std::array<std::pair<std::string_view, ChannelKind>, 13> kEndings = {{
+constexpr std::array<std::pair<std::string_view, ChannelKind>, 14> kEndings = {{
     {"_SCAN_COMMAND", ChannelKind::kScanCommand},
     {"_CAMERA_COMMAND", ChannelKind::kCameraCommand},
     {"_CALIBRATION_COMMAND", ChannelKind::kCalibrationCommand},
     {"_CALIBRATION_CAPTURE", ChannelKind::kCalibrationCapture},
     {"_CALIBRATION", ChannelKind::kCalibration},
+    {"_DELIVERY", ChannelKind::kDelivery},
     {"_PREVIEW", ChannelKind::kPreview},
     {"_PROFILE", ChannelKind::kProfile},
     {"_STRIPE", ChannelKind::kStripe},
@@ -101,6 +102,8 @@ std::string message_error(ChannelKind kind, const std::vector<std::uint8_t>& byt
       return error_of<seam_t>(bytes);
     case ChannelKind::kStatus:
       return error_of<service_status_t>(bytes);
+    case ChannelKind::kDelivery:
+      return error_of<delivery_t>(bytes);
     case ChannelKind::kCellCommand:
       return error_of<cell_command_t>(bytes);
     case ChannelKind::kCellTruth:

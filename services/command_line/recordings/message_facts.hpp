@@ -29,6 +29,7 @@ enum class ChannelKind {
   kCellCommand,
   kCellTruth,
   kClockProbe,
+  kDelivery,
   kUnknown
 };
 

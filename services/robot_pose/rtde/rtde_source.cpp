@@ -12,6 +12,7 @@ namespace arcstart::robot_pose {
 namespace {
 
 constexpr int kRtdePort = 30004;
+constexpr const char* kAllowed = "RTDE allowed there (Settings, Security, Services)";
 constexpr std::size_t kMostPositions = 5000;       // that wait to be polled
 constexpr std::int64_t kAnswers = 2'000'000;       // us: the longest that an answer may take
 constexpr std::int64_t kDataStall = 1'000'000;     // us without a data package
@@ -40,7 +41,7 @@ void RtdeSource::start() {
 
 void RtdeSource::run() {
   for (std::int64_t pause = kRetryFirst;;) {
-    std::string why = connection_.open(controller_, port_, kAnswers);
+    std::string why = connection_.open(controller_, port_, kAnswers, kAllowed);
     const bool connected = why.empty();
     if (connected) why = listen();
     if (why.empty()) return;

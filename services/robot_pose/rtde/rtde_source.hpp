@@ -8,10 +8,10 @@
 #include <string>
 #include <thread>
 
+#include "common/tcp_connection.hpp"
 #include "services/robot_pose/pose_source.hpp"
 #include "services/robot_pose/robot_pose_settings.hpp"
 #include "services/robot_pose/rtde/rtde_session.hpp"
-#include "services/robot_pose/rtde/tcp_connection.hpp"
 
 namespace arcstart::robot_pose {
 

@@ -88,6 +88,7 @@ TEST_CASE("hostile counts and string lengths never crash a decoder") {
   attack(service_status_t{});
   attack(cell_command_t{});
   attack(clock_probe_t{});
+  attack(delivery_t{});
   attack(truth_t{});
 }
 
@@ -128,6 +129,10 @@ TEST_CASE("types have the fingerprints that recordings rely on") {
   line(cell_command_t{}, VALUE(cell_command_t, KEEP) + VALUE(cell_command_t, BACKGROUND) +
                              VALUE(cell_command_t, WORKPIECE) + VALUE(cell_command_t, PLATE));
   line(clock_probe_t{}, "");
+  line(delivery_t{}, VALUE(delivery_t, NOTHING) + VALUE(delivery_t, PENDING) +
+                         VALUE(delivery_t, WRITING) + VALUE(delivery_t, DELIVERED) +
+                         VALUE(delivery_t, TAKEN) + VALUE(delivery_t, DONE) +
+                         VALUE(delivery_t, VALID));
   line(image_t{}, VALUE(image_t, MONO8) + VALUE(image_t, PNG) + VALUE(image_t, MONO16) +
                       VALUE(image_t, BAYER_RG8) + VALUE(image_t, BAYER_GR8) +
                       VALUE(image_t, BAYER_GB8) + VALUE(image_t, BAYER_BG8));

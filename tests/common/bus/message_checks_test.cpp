@@ -165,6 +165,19 @@ TEST_CASE("a refusal has its code, and nothing else has one") {
   CHECK_THAT(meaning_error(seam), Catch::Contains("checked"));
 }
 
+TEST_CASE("a delivery has a progress, times and a turn of length 1") {
+  delivery_t delivery{};
+  delivery.utime = delivery.run_id = 5;
+  delivery.quaternion[0] = 1;
+  CHECK(meaning_error(delivery).empty());
+  SECTION("progress") { delivery.progress = 6; }
+  SECTION("turn") { delivery.quaternion[0] = 0; }
+  SECTION("position") { delivery.end[1] = std::nan(""); }
+  SECTION("request") { delivery.request = -1; }
+  SECTION("part") { delivery.part = "two\nlines"; }
+  CHECK_FALSE(meaning_error(delivery).empty());
+}
+
 TEST_CASE("a clock probe is a question, or an answer with its stamps") {
   clock_probe_t probe{};
   probe.robot = "ROBOT0";

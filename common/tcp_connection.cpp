@@ -1,4 +1,4 @@
-#include "services/robot_pose/rtde/tcp_connection.hpp"
+#include "common/tcp_connection.hpp"
 
 #include <arpa/inet.h>
 #include <fcntl.h>
@@ -15,7 +15,7 @@
 
 #include "common/time.hpp"
 
-namespace arcstart::robot_pose {
+namespace arcstart {
 namespace {
 
 constexpr std::size_t kAtOnce = 4096;  // bytes
@@ -32,10 +32,9 @@ std::int64_t arrival_of_bytes(msghdr& message) {
   return utime_now();
 }
 
-std::string why_not(int error) {
+std::string why_not(int error, const std::string& service) {
   if (error == ECONNREFUSED)
-    return "it refuses the connection: is the robot on, RTDE allowed there (Settings, Security, "
-           "Services), and the port right?";
+    return "it refuses the connection: is the robot on, " + service + ", and the port right?";
   if (error == ETIMEDOUT) return "it does not answer: is the robot on, and the address right?";
   return fmt::format("{}: is this host in the robot's network?", std::strerror(error));
 }
@@ -66,14 +65,15 @@ int TcpConnection::wait(int socket, short events, std::int64_t longest_us) {
 
 bool TcpConnection::sleep(std::int64_t us) { return wait(-1, 0, us) == kEndAsked; }
 
-std::string TcpConnection::open(const std::string& address, int port, std::int64_t longest_us) {
+std::string TcpConnection::open(const std::string& address, int port, std::int64_t longest_us,
+                                const std::string& service) {
   close();
   sockaddr_in there{};
   there.sin_family = AF_INET;
   there.sin_port = htons(static_cast<std::uint16_t>(port));
   if (inet_pton(AF_INET, address.c_str(), &there.sin_addr) != 1) return "not an IPv4 address";
   socket_ = socket(AF_INET, SOCK_STREAM | SOCK_CLOEXEC | SOCK_NONBLOCK, 0);
-  if (socket_ < 0) return why_not(errno);
+  if (socket_ < 0) return why_not(errno, service);
   const int on = 1;
   setsockopt(socket_, SOL_SOCKET, SO_TIMESTAMPNS, &on, sizeof on);
   int error = 0;
@@ -89,7 +89,7 @@ std::string TcpConnection::open(const std::string& address, int port, std::int64
   }
   if (error == 0) return {};
   close();
-  return why_not(error);
+  return why_not(error, service);
 }
 
 TcpConnection::Received TcpConnection::receive(std::vector<std::uint8_t>& bytes,
@@ -120,4 +120,4 @@ bool TcpConnection::send(const std::vector<std::uint8_t>& bytes) {
                               static_cast<ssize_t>(bytes.size());
 }
 
-}  // namespace arcstart::robot_pose
+}  // namespace arcstart

@@ -5,7 +5,7 @@
 #include <string>
 #include <vector>
 
-namespace arcstart::robot_pose {
+namespace arcstart {
 
 class TcpConnection {
  public:
@@ -14,8 +14,10 @@ class TcpConnection {
   TcpConnection(const TcpConnection&) = delete;
   TcpConnection& operator=(const TcpConnection&) = delete;
 
-  // Why there is no connection, one line with what to look at; empty: there is one.
-  std::string open(const std::string& address, int port, std::int64_t longest_us);
+  // Why there is no connection, one line with what to look at; empty: there is one. service: what
+  // must hold at the controller for it to listen, as "RTDE allowed there".
+  std::string open(const std::string& address, int port, std::int64_t longest_us,
+                   const std::string& service);
   void close();
 
   enum class Received { kBytes, kNothing, kClosed, kEnded };
@@ -35,4 +37,4 @@ class TcpConnection {
   int end_;  // eventfd
 };
 
-}  // namespace arcstart::robot_pose
+}  // namespace arcstart
