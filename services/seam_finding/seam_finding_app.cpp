@@ -22,7 +22,7 @@ SeamFindingApp::SeamFindingApp(Bus& bus, const SeamFindingSettings& settings,
       store_(instance, settings.backgrounds_kept, settings.results_kept) {
   std::vector<std::string> warnings;
   for (const CollectedScan& scan : store_.backgrounds(warnings))
-    if (background_error(scan).empty()) remember(scan);
+    if (background_error(scan, settings_).empty()) remember(scan);
   if (!backgrounds_.empty())
     spdlog::info("background scan {} found again", backgrounds_.back()->scan_id());
   for (const std::int64_t scan_id : store_.answered_scans()) collector_.skip(scan_id);
@@ -84,7 +84,7 @@ seam_t SeamFindingApp::take_workpiece(const CollectedScan& scan) {
 }
 
 seam_t SeamFindingApp::take_background(const CollectedScan& scan) {
-  const ScanRefusal error = background_error(scan);
+  const ScanRefusal error = background_error(scan, settings_);
   seam_t receipt = answer_background(scan, error);
   if (!error.empty()) return receipt;
   remember(scan);
