@@ -189,6 +189,24 @@ TEST_CASE("where no service runs, arcstart scan says so and ends with 1") {
              Contains("LASER0_SCAN is not heard") && Contains("no service of the chain is heard"));
 }
 
+TEST_CASE("arcstart cell check looks at this host and at who is on the bus") {
+  Cell cell;
+  cell.seam.scan_id = 77;
+  Program program({"cell", "check", "--seconds", "1", "--state", "/tmp"});
+  cell.serve(program);
+  CHECK(program.code() == 1);
+  CHECK_THAT(program.out(), Contains("good  route       239.255.76.67 leaves by lo, ttl 0") &&
+                                Contains("calibration none in force") &&
+                                Contains("LASER0_SEAM_FINDING runs") &&
+                                Contains("--only sensor_capture,robot_pose,calibration,extraction,"
+                                         "reconstruction\n"));
+  CHECK(program.err().empty());
+
+  Program wrong({"cell", "check", "--cell", "/not/there.yaml"});
+  cell.serve(wrong);
+  CHECK(wrong.code() == 2);
+}
+
 TEST_CASE("arcstart monitor shows what is on the bus") {
   Cell cell;
   Program program({"monitor", "--once", "--json"});
