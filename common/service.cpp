@@ -11,6 +11,8 @@
 #include <fstream>
 
 #include "common/bus/multicast_route.hpp"
+#include "common/host/host_clock.hpp"
+#include "common/loss_watch.hpp"
 #include "common/options.hpp"
 #include "common/service_role.hpp"
 #include "common/time.hpp"
@@ -21,8 +23,6 @@
 namespace arcstart {
 namespace {
 
-constexpr std::int64_t kLossIsNews = 10'000'000;  // us: so long after a loss the state is DEGRADED
-
 volatile std::sig_atomic_t end_asked = 0;
 void ask_for_end(int) { end_asked = 1; }
 
@@ -32,13 +32,6 @@ void notify_systemd([[maybe_unused]] const char* state) {
 #ifdef ARCSTART_SYSTEMD
   sd_notify(0, state);
 #endif
-}
-
-std::string default_state_folder() {
-  if (const char* given = std::getenv("STATE_DIRECTORY")) return given;  // systemd's
-  if (const char* given = std::getenv("XDG_STATE_HOME")) return std::string(given) + "/arcstart";
-  const char* home = std::getenv("HOME");
-  return std::string(home ? home : "/tmp") + "/.local/state/arcstart";
 }
 
 void open_state_folder(const std::string& folder) {
@@ -70,8 +63,26 @@ bool wait_for_route(const BusSettings& settings) {
   return !end_asked;
 }
 
+// What is wrong first, then what is to be known.
+std::string status_words(const Bus& bus, const Health& health, const std::string& second,
+                         const LossWatch& losses) {
+  const bool two = !second.empty() && health.state != service_status_t::FAULT;
+  std::string words = two ? second : health.last_error;
+  const auto add = [&words](const std::string& more) {
+    if (!words.empty() && !more.empty()) words += "; ";
+    words += more;
+  };
+  add(losses.words(words));
+  if (words.empty()) words = bus.last_error();
+  if (words.empty()) words = bus.buffer_warning();
+  add(health.notice);
+  add("clock " + read_host_clock().words());
+  return words;
+}
+
 service_status_t make_status(const ServiceContext& context, const ServiceDescription& description,
-                             const Health& health, const std::string& second, bool losing) {
+                             const Health& health, const std::string& second,
+                             const LossWatch& losses) {
   const Bus& bus = context.bus;
   service_status_t status{};
   status.utime = utime_now();
@@ -80,17 +91,13 @@ service_status_t make_status(const ServiceContext& context, const ServiceDescrip
   status.pid = getpid();
   status.run_id = context.run_id;
   status.state = health.state;
-  status.last_error = health.last_error;
-  if (!second.empty() && health.state != service_status_t::FAULT) status.last_error = second;
-  if (status.last_error.empty()) status.last_error = bus.last_error();
-  if (status.last_error.empty()) status.last_error = bus.buffer_warning();
-  if (status.last_error.empty()) status.last_error = health.notice;
+  status.last_error = status_words(bus, health, second, losses);
   status.received = bus.received() + health.received;
   status.sent = bus.sent();
   status.lost = health.lost + bus.overflowed();
   status.undecodable = bus.undecodable() + health.undecodable;
   if (status.state == service_status_t::RUNNING &&
-      (losing || !second.empty() || !bus.buffer_warning().empty()))
+      (losses.is_losing() || !second.empty() || !bus.buffer_warning().empty()))
     status.state = service_status_t::DEGRADED;
   status.oldest_age = health.oldest_age;
   read_memory(status.memory, status.peak_memory);
@@ -103,7 +110,8 @@ void run_loop(ServiceContext& context, const ServiceDescription& description, Ap
   const std::string channel = status_channel(context.instance, description);
   const TwinWatch twin(context.bus, channel, description.name, context.run_id);
   std::string told_second;
-  std::int64_t next_status = 0, lost = 0, last_loss = 0;
+  std::int64_t next_status = 0;
+  LossWatch losses;
   Health told;
   notify_systemd("READY=1");
   while (!end_asked) {
@@ -112,11 +120,8 @@ void run_loop(ServiceContext& context, const ServiceDescription& description, Ap
     while (const auto warning = context.bus.next_warning()) spdlog::warn("{}", *warning);
     notify_systemd("WATCHDOG=1");
     const Health health = app.health();
-    if (const std::int64_t now_lost = health.lost + context.bus.overflowed(); now_lost != lost) {
-      lost = now_lost;
-      last_loss = steady_now();
-    }
-    const bool losing = last_loss != 0 && steady_now() - last_loss < kLossIsNews;
+    losses.take(health.lost + context.bus.overflowed(), health.last_error, steady_now(),
+                utime_now());
     std::string second = twin.trouble();
     if (second.empty()) second = context.bus.dispute();
     if (second != told_second && !second.empty()) spdlog::warn("{}", second);
@@ -126,18 +131,25 @@ void run_loop(ServiceContext& context, const ServiceDescription& description, Ap
       spdlog::warn(health.last_error);
     if (health.last_error.empty() && !told.last_error.empty()) spdlog::info("well again");
     if (!changed && steady_now() < next_status) continue;
-    context.bus.publish(channel, make_status(context, description, health, second, losing));
+    context.bus.publish(channel, make_status(context, description, health, second, losses));
     next_status = steady_now() + 1'000'000;
     told = health;
     told_second = second;
   }
   Health last = app.health();
   last.state = service_status_t::STOPPING;
-  context.bus.publish(channel, make_status(context, description, last, "", false));
+  context.bus.publish(channel, make_status(context, description, last, "", losses));
   notify_systemd("STOPPING=1");
 }
 
 }  // namespace
+
+std::string default_state_folder() {
+  if (const char* given = std::getenv("STATE_DIRECTORY")) return given;  // systemd's
+  if (const char* given = std::getenv("XDG_STATE_HOME")) return std::string(given) + "/arcstart";
+  const char* home = std::getenv("HOME");
+  return std::string(home ? home : "/tmp") + "/.local/state/arcstart";
+}
 
 std::string status_channel(const Instance& instance, const ServiceDescription& description) {
   std::string name = description.name;

@@ -25,7 +25,7 @@ struct Instance {
 struct Health {
   std::int8_t state = service_status_t::RUNNING;
   std::string last_error;        // what, where and what to do; empty for nothing
-  std::string notice;            // stands there in STATUS where there is no error: a lit laser
+  std::string notice;            // stands behind it in STATUS: whether the laser is lit
   std::int64_t lost = 0;         // inputs that should have come and did not
   std::int64_t oldest_age = 0;   // of an input that still waits; us
   std::int64_t received = 0;     // inputs from a device, beside the bus's messages
@@ -69,6 +69,9 @@ struct ServiceDescription {
 // options, configuration or bus.
 int run_service(int argc, char** argv, const ServiceDescription& description,
                 const std::function<std::unique_ptr<App>(ServiceContext&)>& make_app);
+
+// What --state is without being given: systemd's, or one of the user's own.
+std::string default_state_folder();
 
 // LASER0_EXTRACTION_STATUS, ROBOT0_ROBOT_POSE_STATUS.
 std::string status_channel(const Instance& instance, const ServiceDescription& description);

@@ -1,10 +1,12 @@
 #include "common/bus/bus.hpp"
 
+#include <fcntl.h>
 #include <fmt/core.h>
-#include <sys/socket.h>
-#include <unistd.h>
+#include <sys/resource.h>
 
 #include <cctype>
+
+#include "common/host/host_resources.hpp"
 
 namespace arcstart {
 namespace {
@@ -22,19 +24,26 @@ std::string escaped(const std::string& channel) {
 // LCM never says how large its socket's buffer became: a socket of our own tells what the kernel
 // grants.
 std::string buffer_shortfall(int wanted) {
-  const int probe = socket(AF_INET, SOCK_DGRAM, 0);
-  if (probe < 0) return "";
-  int granted = 0;
-  socklen_t size = sizeof granted;
-  setsockopt(probe, SOL_SOCKET, SO_RCVBUF, &wanted, sizeof wanted);
-  getsockopt(probe, SOL_SOCKET, SO_RCVBUF, &granted, &size);
-  close(probe);
-  granted /= 2;  // Linux doubles what it grants for its own bookkeeping
+  const int granted = granted_receive_buffer(wanted);
   if (granted >= wanted) return "";
   return fmt::format(
       "receive buffer is {} of the {} bytes asked for, images will be lost: run scripts/setup, or "
       "'sysctl -w net.core.rmem_max={}' as root, on the host and not in a container",
       granted, wanted, wanted);
+}
+
+// LCM says of none of its failures what it was. Services start where they may open 12 files in all,
+// of which three are the standard ones, and do not with 8 (tried).
+constexpr rlim_t kDescriptors = 9;
+
+// How many more files this process may open; no more than asked for are counted.
+rlim_t free_descriptors(rlim_t asked) {
+  rlimit limit{};
+  getrlimit(RLIMIT_NOFILE, &limit);
+  rlim_t left = 0;
+  for (rlim_t one = 0; one < limit.rlim_cur && left < asked; ++one)
+    if (fcntl(static_cast<int>(one), F_GETFD) < 0) ++left;
+  return left;
 }
 
 }  // namespace
@@ -88,10 +97,15 @@ void Bus::add_transport(const std::string& url) {
   const bool memory = url.starts_with("memq");
   transports_.push_back(std::make_unique<Transport>(url, memory));
   // Asking for the descriptor now makes LCM bind its sockets and test itself at this known moment.
-  if (!transports_.back()->lcm.good() || transports_.back()->lcm.getFileno() < 0)
-    throw BusError("LCM cannot use " + url +
-                   ": is there a route for multicast (ip route add 224.0.0.0/4 dev INTERFACE), "
-                   "and is the group right?");
+  if (transports_.back()->lcm.good() && transports_.back()->lcm.getFileno() >= 0) return;
+  if (const rlim_t left = free_descriptors(kDescriptors); left < kDescriptors)
+    throw BusError(
+        fmt::format("LCM cannot use {}: this process may open {} more files, and it takes some {}: "
+                    "raise the limit (ulimit -n, LimitNOFILE=)",
+                    url, left, kDescriptors));
+  throw BusError("LCM cannot use " + url +
+                 ": is there a route for multicast (ip route add 224.0.0.0/4 dev INTERFACE), "
+                 "and is the group right?");
 }
 
 Bus::Transport& Bus::transport_of(const std::string& channel) {

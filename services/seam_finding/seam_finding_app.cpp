@@ -5,6 +5,7 @@
 
 #include "common/bus/calibration_message.hpp"
 #include "common/time.hpp"
+#include "services/seam_finding/scan/answer_mark.hpp"
 #include "services/seam_finding/scan/scan_limits.hpp"
 
 namespace arcstart::seam_finding {
@@ -22,13 +23,14 @@ SeamFindingApp::SeamFindingApp(Bus& bus, const SeamFindingSettings& settings,
       store_(instance, settings.backgrounds_kept, settings.results_kept) {
   std::vector<std::string> warnings;
   for (const CollectedScan& scan : store_.backgrounds(warnings))
-    if (background_error(scan).empty()) remember(scan);
+    if (background_error(scan, settings_).empty()) remember(scan);
   if (!backgrounds_.empty())
     spdlog::info("background scan {} found again", backgrounds_.back()->scan_id());
   for (const std::int64_t scan_id : store_.answered_scans()) collector_.skip(scan_id);
   if (auto seam = store_.newest_seam(warnings)) {
     answered_scan_ = seam->scan_id;
     answer_ = std::move(seam->bytes);
+    answer_mark_ = answer_mark(answered_scan_, answer_);
   }
   for (const std::string& warning : warnings) spdlog::warn("{}", warning);
   // By then a running scan has told of itself: its state comes at 5 Hz.
@@ -84,7 +86,7 @@ seam_t SeamFindingApp::take_workpiece(const CollectedScan& scan) {
 }
 
 seam_t SeamFindingApp::take_background(const CollectedScan& scan) {
-  const ScanRefusal error = background_error(scan);
+  const ScanRefusal error = background_error(scan, settings_);
   seam_t receipt = answer_background(scan, error);
   if (!error.empty()) return receipt;
   remember(scan);
@@ -131,6 +133,7 @@ void SeamFindingApp::send(const seam_t& seam) {
   answer_.resize(static_cast<std::size_t>(seam.getEncodedSize()));
   seam.encode(answer_.data(), 0, static_cast<int>(answer_.size()));
   answered_scan_ = seam.scan_id;
+  answer_mark_ = answer_mark(answered_scan_, answer_);
   last_error_ = seam.verdict == seam_t::REFUSED
                     ? fmt::format("scan {} refused: {}", seam.scan_id, seam.reason)
                     : "";
@@ -163,6 +166,7 @@ Health SeamFindingApp::health() const {
   health.lost = collector_.lost();
   const std::string& fault = store_error_.empty() ? background_store_error_ : store_error_;
   health.last_error = fault.empty() ? last_error_ : fault;
+  if (!answer_.empty()) health.notice = answer_mark_;
   if (!fault.empty()) health.state = service_status_t::FAULT;
   return health;
 }

@@ -49,6 +49,7 @@ class SeamFindingApp : public App {
 
   std::vector<std::uint8_t> answer_;  // as sent, empty once the next scan has started
   std::int64_t answered_scan_ = 0;
+  std::string answer_mark_;  // of answer_
   // us, steady. alive_: the last sign of life of a scan that is open.
   std::int64_t next_repeat_ = 0, alive_ = 0;
   std::string store_error_, background_store_error_, last_error_;

@@ -104,6 +104,12 @@ struct SeamFindingSettings {
   double dead_chain_s =
       5;  // real time without a word from the chain before an open scan is given up
 
+  // The clocks that stamp images and positions may displace a seam by the tool's speed times their
+  // difference. By more than this surely, or by ten times as much perhaps: the scan is refused. By
+  // more than this perhaps, or where they were not compared: the seam is found, and `usable` says
+  // CLOCKS_APART. A seam's start is known to a tenth of a millimetre where it was seen.
+  double clock_displacement_max_mm = 0.1;
+
   int backgrounds_kept = 5;  // newest background scans kept in the state folder
   int results_kept = 50;     // newest results kept there
 
@@ -146,6 +152,7 @@ struct SeamFindingSettings {
     visitor("ambiguity_ratio", ambiguity_ratio, between(1, 10));
     visitor("lost_share_max", lost_share_max, between(0, 0.5));
     visitor("dead_chain_s", dead_chain_s, between(0.5, 600));
+    visitor("clock_displacement_max_mm", clock_displacement_max_mm, between(0.01, 10));
     visitor("backgrounds_kept", backgrounds_kept, between(1, 1000));
     visitor("results_kept", results_kept, between(1, 10000));
   }

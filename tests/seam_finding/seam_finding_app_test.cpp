@@ -2,6 +2,7 @@
 #include <catch2/catch.hpp>
 
 #include "services/seam_finding/model/scan_cloud.hpp"
+#include "services/seam_finding/scan/answer_mark.hpp"
 #include "services/seam_finding/seam_finding_settings.hpp"
 #include "tests/seam_finding/scan/service_life.hpp"
 
@@ -66,6 +67,25 @@ TEST_CASE("the answer is repeated, byte for byte, until the next scan starts") {
   const std::size_t sent = life.bytes.size();
   life.live(1.3);
   CHECK(life.bytes.size() == sent);
+}
+
+TEST_CASE(
+    "STATUS names the answer by its digest, of a repeated one too, until the next scan starts") {
+  Folder folder;
+  std::string told;
+  {
+    Life life(folder.path);
+    CHECK(life.app->health().notice.empty());
+    life.scan(scans().work);
+    told = life.app->health().notice;
+    CHECK(told == answer_mark(life.seams.at(0)));
+    seam_t other = life.seams.at(0);
+    other.start[2] = 1e-9;
+    CHECK(told != answer_mark(other));
+    life.state(scans().second.scanning);
+    CHECK(life.app->health().notice.empty());
+  }
+  CHECK(Life(folder.path).app->health().notice == told);
 }
 
 TEST_CASE("no background is a reason, and one of another calibration is none") {

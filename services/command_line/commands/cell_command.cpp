@@ -9,6 +9,7 @@
 #include "common/options.hpp"
 #include "common/service.hpp"
 #include "common/time.hpp"
+#include "services/command_line/cell/cell_check.hpp"
 #include "services/command_line/output/seam_error.hpp"
 #include "services/command_line/recordings/message_facts.hpp"
 
@@ -19,6 +20,7 @@ struct CellRequest {
   std::string cell, sensor = "LASER0", robot = "ROBOT0", scene;
   std::int64_t seed = -1;
   bool verdict = false, torch = false;
+  bool checked = false;  // `cell check` was asked for
   double timeout_s = 10;
 };
 
@@ -146,9 +148,11 @@ int measure_torch(Bus& bus, const CellRequest& request) {
 
 void add_cell_command(CLI::App& parent, int& exit_code) {
   auto request = std::make_shared<CellRequest>();
-  Command command(
-      parent, "cell",
-      "The simulated cell: change its scene, or hold the seam that was found against the truth");
+  Command command(parent, "cell",
+                  "check: is this host fit for its cell? Else the simulated cell: change its "
+                  "scene, or hold the "
+                  "seam that was found against the truth");
+  add_cell_check(command, request->checked, exit_code);
   command
       .option("--scene", request->scene,
               "Show the empty table or the work: background or workpiece")
@@ -164,6 +168,7 @@ void add_cell_command(CLI::App& parent, int& exit_code) {
   command.option("--sensor", request->sensor, "Sensor whose seam is meant").show_default();
   command.option("--timeout", request->timeout_s, "Longest wait for an answer; s").show_default();
   command.run([request, &exit_code] {
+    if (request->checked) return;
     if (int{request->verdict} + int{request->torch} + int{!request->scene.empty()} != 1) {
       fmt::print(stderr, "cell: give one of --scene, --verdict and --torch\n");
       exit_code = 2;

@@ -52,6 +52,7 @@ int run(ScanOptions options) {
     std::cerr << "scan: " << client.failure() << "\n";
     return 1;
   }
+  if (!client.stranger().empty()) std::cerr << "scan: " << client.stranger() << "\n";
   const seam_t& seam = *client.seam();
   std::cout << seam_to_json_text(seam) << "\n";
   if (seam.verdict == seam_t::FOUND || seam.verdict == seam_t::BACKGROUND_STORED) return 0;

@@ -35,7 +35,7 @@ scan_t scan_message(const ImportedScan& scan, const ImportedScan* previous, std:
   message.end_reason = ended ? "import: after the last image" : "";
   message.job = scan.job;
   message.part = scan.part;
-  message.clock_bound = -1;
+  message.clock_bound = 0;  // one clock: whoever writes the files vouches for it
   message.previous_first_seq = message.previous_last_seq = -1;
   if (previous) {
     const auto count = static_cast<std::int32_t>(previous->folder->frames.size());

@@ -44,18 +44,20 @@ ScanClient::ScanClient(Bus& bus, const Instance& instance, const ScanRequest& re
       stop_id_(unique_command_id()) {
   bus.subscribe<scan_t>(instance.sensor_channel("SCAN"), Queue::measurements(),
                         [this](const scan_t& state) { take_scan(state); });
-  bus.subscribe<seam_t>(instance.sensor_channel("SEAM"), Queue::newest(),
+  bus.subscribe<seam_t>(instance.sensor_channel("SEAM"), Queue::measurements(),
                         [this](const seam_t& seam) { take_seam(seam); });
   for (const auto& service : chain_services())
-    bus.subscribe<service_status_t>(status_channel(instance, service), Queue::newest(),
+    bus.subscribe<service_status_t>(status_channel(instance, service), Queue::measurements(),
                                     [this, name = service.name](const service_status_t& status) {
                                       services_[name] = {now_, status};
+                                      if (name == "seam_finding") answer_.take(status, now_);
                                     });
 }
 
 void ScanClient::tick(std::int64_t steady, std::int64_t utime) {
   if (now_ == 0) phase_began_ = scan_heard_ = steady;
   now_ = steady;
+  answer_if_named();
   const auto waited = [this](std::int64_t since) {
     return now_ - since > seconds_to_us(request_.timeout_s);
   };
@@ -81,7 +83,8 @@ void ScanClient::tick(std::int64_t steady, std::int64_t utime) {
     case Phase::kWaiting:
       if (waited(phase_began_))
         fail(fmt::format("no {} came for the scan within {} s; {}",
-                         instance_.sensor_channel("SEAM"), request_.timeout_s, missing_services()));
+                         instance_.sensor_channel("SEAM"), request_.timeout_s,
+                         answer_.missing().empty() ? missing_services() : answer_.missing()));
       return;
     case Phase::kDone:
       return;
@@ -111,19 +114,20 @@ void ScanClient::take_scan(const scan_t& state) {
         state.run_id != run_id_ || state.scan_id != scan_id_ || state.state != scan_t::SCANNING;
     if (ended) enter(Phase::kWaiting);
   }
-  answer_if_ours();
 }
 
-void ScanClient::take_seam(const seam_t& seam) {
-  newest_seam_ = seam;
-  answer_if_ours();
+void ScanClient::take_seam(const seam_t& seam) { answer_.take(seam, scan_id_, has_ended()); }
+
+// A scan of which nothing is heard any more is answered, too.
+bool ScanClient::has_ended() const {
+  return phase_ == Phase::kWaiting || (phase_ == Phase::kScanning && now_ - scan_heard_ > kSilence);
 }
 
-void ScanClient::answer_if_ours() {
-  if (scan_id_ == 0 || phase_ == Phase::kDone || !newest_seam_ || newest_seam_->scan_id != scan_id_)
-    return;
-  answer_ = newest_seam_;
-  enter(Phase::kDone);
+void ScanClient::answer_if_named() {
+  if (!has_ended()) return;
+  answer_.decide(scan_id_, now_);
+  if (!answer_.failure().empty()) return fail(answer_.failure());
+  if (answer_.seam()) enter(Phase::kDone);
 }
 
 void ScanClient::send(std::int8_t action, std::int64_t command_id, std::int64_t utime) {

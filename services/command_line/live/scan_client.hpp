@@ -10,6 +10,7 @@
 
 #include "common/bus/bus.hpp"
 #include "common/service.hpp"
+#include "services/command_line/live/awaited_answer.hpp"
 
 namespace arcstart::command_line {
 
@@ -40,9 +41,11 @@ class ScanClient {
   void stop();
 
   bool is_done() const { return phase_ == Phase::kDone; }
-  const std::optional<seam_t>& seam() const { return answer_; }  // nothing where none came
-  const std::string& failure() const { return failure_; }        // why none came: one line
-  std::string progress() const;                                  // what goes on now: one line
+  const std::optional<seam_t>& seam() const { return answer_.seam(); }  // nothing where none came
+  // Another answer than that, which came as well: one line, empty for none.
+  std::string stranger() const { return answer_.stranger(); }
+  const std::string& failure() const { return failure_; }  // why none came: one line
+  std::string progress() const;                            // what goes on now: one line
   std::int64_t command_id() const { return start_id_; }
 
  private:
@@ -57,7 +60,8 @@ class ScanClient {
   void send(std::int8_t action, std::int64_t command_id, std::int64_t utime);
   void enter(Phase phase);
   void fail(const std::string& why);
-  void answer_if_ours();
+  bool has_ended() const;
+  void answer_if_named();
   std::string missing_services() const;
 
   Bus& bus_;
@@ -69,7 +73,7 @@ class ScanClient {
   std::int64_t now_ = 0, phase_began_ = 0, next_send_ = 0, scan_heard_ = 0;  // us, steady
   std::int64_t scan_id_ = 0, run_id_ = 0;                                    // of our scan
   std::optional<scan_t> state_;
-  std::optional<seam_t> newest_seam_, answer_;
+  AwaitedAnswer answer_;
   std::map<std::string, Heard> services_;  // by service
   std::string failure_;
 };

@@ -68,7 +68,7 @@ void ScanPictures::collect() {
     const auto kept = std::make_shared<const seam_finding::CollectedScan>(std::move(*scan));
     if (kept->state.kind != scan_t::BACKGROUND)
       workpiece_ = kept;
-    else if (seam_finding::background_error(*kept).empty())
+    else if (seam_finding::background_error(*kept, settings_).empty())
       backgrounds_[kept->state.scan_id] = kept;
     keep_contradicted();
   }

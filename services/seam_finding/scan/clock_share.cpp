@@ -12,9 +12,9 @@
 namespace arcstart::seam_finding {
 namespace {
 
-// mm. What a seam's start is known to where it was seen; and what its deviation may bear of a
-// difference that is possible, as after a clock was set, but not certain.
-constexpr double kDisplacementMax = 0.1, kDoubtMax = 1;
+// Of what is allowed, a displacement that is possible, as after a clock was set, but not certain:
+// the seam's deviation contains it.
+constexpr double kDoubtMax = 10;
 
 }  // namespace
 
@@ -36,17 +36,28 @@ double speed_of(const CollectedScan& scan) {
   return quantile(speeds, 0.9);
 }
 
-ScanRefusal clock_refusal(const CollectedScan& scan) {
+ScanRefusal clock_refusal(const CollectedScan& scan, double allowed_mm) {
   if (scan.state.clock_bound < 0) return {};
   const double surely =
       std::max(0.0, std::abs(scan.state.clock_difference) - scan.state.clock_bound);
   const double speed = speed_of(scan);
-  if (surely * speed <= kDisplacementMax && clock_doubt(scan.state) * speed <= kDoubtMax) return {};
+  if (surely * speed <= allowed_mm && clock_doubt(scan.state) * speed <= kDoubtMax * allowed_mm)
+    return {};
   return refuse_scan(
       seam_t::CLOCKS_DIFFER,
       fmt::format("up to {:.1f} ms, by which it is displaced by {:.1f} mm at "
                   "{:.0f} mm/s",
                   clock_doubt(scan.state) * 1e3, clock_doubt(scan.state) * speed, speed));
+}
+
+std::string clock_remark(const CollectedScan& scan, double allowed_mm) {
+  if (scan.state.clock_bound < 0)
+    return "the clocks that stamp images and positions were not compared (robot_pose answered no "
+           "CLOCK_PROBE); ";
+  const double perhaps = clock_doubt(scan.state) * speed_of(scan);
+  if (perhaps <= allowed_mm) return "";
+  return fmt::format("the clocks that stamp images and positions may displace it by {:.2f} mm; ",
+                     perhaps);
 }
 
 }  // namespace arcstart::seam_finding

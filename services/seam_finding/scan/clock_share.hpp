@@ -2,6 +2,8 @@
 // each point is displaced by the tool's velocity times that difference.
 #pragma once
 
+#include <string>
+
 #include "services/seam_finding/scan/scan_collector.hpp"
 
 namespace arcstart::seam_finding {
@@ -14,8 +16,12 @@ double clock_doubt(const scan_t& state);
 // there are no two.
 double speed_of(const CollectedScan& scan);
 
-// Why the scan must not be evaluated: the clocks surely differ by what makes a displacement of more
-// than 0.1 mm, or perhaps by what makes one of more than 1 mm. Empty where it may be.
-ScanRefusal clock_refusal(const CollectedScan& scan);
+// Why the scan must not be evaluated: the clocks surely displace it by more than allowed_mm, or
+// perhaps by more than ten times that. Empty where it may be.
+ScanRefusal clock_refusal(const CollectedScan& scan, double allowed_mm);
+
+// Why a seam of this scan must not be acted on (CLOCKS_APART): the clocks perhaps displace it by
+// more than allowed_mm, or nobody has compared them. A remark; empty where it may be.
+std::string clock_remark(const CollectedScan& scan, double allowed_mm);
 
 }  // namespace arcstart::seam_finding

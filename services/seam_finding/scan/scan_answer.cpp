@@ -81,6 +81,14 @@ int missing_of(const ScanCloud& cloud) {
       [](const ScanStripe& stripe) { return stripe.seen == ScanStripe::Seen::kMissing; }));
 }
 
+// Clocks displace both ends: they are named before an end that was not seen.
+void judge_clocks(seam_t& seam, const CollectedScan& scan, const SeamFindingSettings& settings) {
+  const std::string remark = clock_remark(scan, settings.clock_displacement_max_mm);
+  if (seam.verdict != seam_t::FOUND || remark.empty()) return;
+  seam.remark = remark + seam.remark;
+  if (seam.usable != seam_t::CONTRADICTED) seam.usable = seam_t::CLOCKS_APART;
+}
+
 bool two_missing_in_a_row(const ScanCloud& cloud) {
   return std::adjacent_find(cloud.stripes.begin(), cloud.stripes.end(),
                             [](const ScanStripe& a, const ScanStripe& b) {
@@ -144,11 +152,13 @@ StoredBackground::StoredBackground(const CollectedScan& scan, const SeamFindingS
     model_ = std::make_unique<SurfaceBackground>(*cloud_, settings.background_distance());
 }
 
-ScanRefusal background_error(const CollectedScan& scan) {
+ScanRefusal background_error(const CollectedScan& scan, const SeamFindingSettings& settings) {
   if (!scan.refusal.empty()) return scan.refusal;
   const ScanBalance balance = balance_of(scan);
   if (calibration_changed(scan)) return refuse_scan(seam_t::CALIBRATION_CHANGED);
-  if (const ScanRefusal refusal = clock_refusal(scan); !refusal.empty()) return refusal;
+  if (const ScanRefusal refusal = clock_refusal(scan, settings.clock_displacement_max_mm);
+      !refusal.empty())
+    return refusal;
   if (scan.state.end_cause == scan_t::CAMERA_LOST) return refuse_scan(seam_t::CAMERA_LOST);
   const ScanCloud cloud = cloud_of(scan);
   const int missing = missing_of(cloud);
@@ -193,7 +203,8 @@ seam_t answer_workpiece(const CollectedScan& scan, const PreparedScan& prepared,
   seam.calibration_id = calibration_of(scan);
   if (calibration_changed(scan)) return refused(seam, seam_t::CALIBRATION_CHANGED);
   if (scan.state.images == 0) return refused(seam, seam_t::NO_IMAGES);
-  if (const ScanRefusal refusal = clock_refusal(scan); !refusal.empty())
+  if (const ScanRefusal refusal = clock_refusal(scan, settings.clock_displacement_max_mm);
+      !refusal.empty())
     return refused(seam, refusal);
   const ScanBalance balance = balance_of(scan);
   const ScanCloud& cloud = prepared.cloud;
@@ -217,6 +228,7 @@ seam_t answer_workpiece(const CollectedScan& scan, const PreparedScan& prepared,
   // Behind the referee, which sees the stripes in the robot's own coordinates.
   add_robot_accuracy(settings.robot_accuracy_mm, result);
   fill_in(seam, result);
+  judge_clocks(seam, scan, settings);
   seam.background_points = static_cast<int>(prepared.segmentation.background.size());
   fill_in_calibration_covariance(seam, scan, calibration);
   return seam;

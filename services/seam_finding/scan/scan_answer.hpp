@@ -58,7 +58,7 @@ class StoredBackground {
 
 // Why a background scan is not complete, empty where it can serve. Single stripes may be missing,
 // for the surface is known from those beside them: no more than one in twenty, no two in a row.
-ScanRefusal background_error(const CollectedScan& scan);
+ScanRefusal background_error(const CollectedScan& scan, const SeamFindingSettings& settings);
 
 // A workpiece scan before the seam is sought: its cloud, downsampled, thinned out for the referee,
 // and segmented where there is a background.

@@ -28,9 +28,35 @@ std::optional<Message> decoded(const std::vector<std::uint8_t>& bytes) {
   return message;
 }
 
-// "background-" and the scan_id in 20 digits: names sort as times do.
-std::string file_name(const std::string& prefix, std::int64_t scan_id) {
-  return fmt::format("{}-{:020d}.lcm", prefix, scan_id);
+// What the name of a file says: the how-many-th it is, and the scan. Scans count times of a clock
+// that may have been set back since, so that they give no order.
+struct StoredName {
+  std::int64_t order = 0, scan_id = 0;
+  auto operator<=>(const StoredName&) const = default;
+};
+
+std::string file_name(const std::string& prefix, const StoredName& name) {
+  return fmt::format("{}-{:08d}-{:020d}.lcm", prefix, name.order, name.scan_id);
+}
+
+// Nothing where it is no such name. Former ones hold the scan alone: they are older than all
+// others.
+std::optional<StoredName> stored_name(const std::string& file, const std::string& prefix) {
+  if (!file.starts_with(prefix + "-") || !file.ends_with(".lcm")) return {};
+  std::int64_t numbers[2] = {0, 0};
+  int count = 0;
+  const char* at = file.data() + prefix.size() + 1;
+  const char* const stop = file.data() + file.size() - 4;  // ".lcm"
+  while (count < 2) {
+    const auto [end, error] = std::from_chars(at, stop, numbers[count]);
+    if (error != std::errc()) return {};
+    ++count;
+    if (end == stop)
+      return count == 2 ? StoredName{numbers[0], numbers[1]} : StoredName{0, numbers[0]};
+    if (*end != '-') return {};
+    at = end + 1;
+  }
+  return {};
 }
 
 }  // namespace
@@ -66,26 +92,34 @@ void ScanStore::keep_background(const CollectedScan& scan) {
   for (const profile_t& profile : scan.profiles)
     events.push_back({profile.utime, sensor_ + "_PROFILE", encoded(profile)});
   events.push_back({scan.state.end_utime, sensor_ + "_SCAN", encoded(scan.state)});
-  write(file_name("background", scan.state.scan_id), events);
+  write(next_name("background", scan.state.scan_id), events);
   prune("background", backgrounds_kept_);
 }
 
 void ScanStore::keep_seam(std::int64_t scan_id, const std::vector<std::uint8_t>& bytes) {
   if (folder_.empty()) return;
-  write(file_name("seam", scan_id), {{scan_id, sensor_ + "_SEAM", bytes}});
+  write(next_name("seam", scan_id), {{scan_id, sensor_ + "_SEAM", bytes}});
   prune("seam", results_kept_);
 }
 
 std::vector<std::string> ScanStore::files(const std::string& prefix) const {
-  std::vector<std::string> found;
-  if (folder_.empty()) return found;
+  std::vector<std::string> paths;
+  if (folder_.empty()) return paths;
+  std::vector<std::pair<StoredName, std::string>> found;
   std::error_code error;
-  for (const auto& entry : fs::directory_iterator(folder_, error)) {
-    const std::string name = entry.path().filename();
-    if (name.starts_with(prefix + "-") && name.ends_with(".lcm")) found.push_back(entry.path());
-  }
+  for (const auto& entry : fs::directory_iterator(folder_, error))
+    if (const auto name = stored_name(entry.path().filename(), prefix))
+      found.emplace_back(*name, entry.path());
   std::sort(found.begin(), found.end());
-  return found;
+  for (auto& [name, path] : found) paths.push_back(std::move(path));
+  return paths;
+}
+
+std::string ScanStore::next_name(const std::string& prefix, std::int64_t scan_id) const {
+  const std::vector<std::string> all = files(prefix);
+  const std::int64_t last =
+      all.empty() ? 0 : stored_name(fs::path(all.back()).filename(), prefix)->order;
+  return file_name(prefix, {last + 1, scan_id});
 }
 
 void ScanStore::prune(const std::string& prefix, int kept) const {
@@ -139,13 +173,8 @@ std::optional<StoredSeam> ScanStore::newest_seam(std::vector<std::string>& warni
 
 std::vector<std::int64_t> ScanStore::answered_scans() const {
   std::vector<std::int64_t> scans;
-  for (const std::string& path : files("seam")) {
-    const std::string number = fs::path(path).stem().string().substr(std::string("seam-").size());
-    std::int64_t scan_id = 0;
-    const auto [end, error] =
-        std::from_chars(number.data(), number.data() + number.size(), scan_id);
-    if (error == std::errc() && end == number.data() + number.size()) scans.push_back(scan_id);
-  }
+  for (const std::string& path : files("seam"))
+    scans.push_back(stored_name(fs::path(path).filename(), "seam")->scan_id);
   return scans;
 }
 

@@ -24,8 +24,9 @@ struct StoredSeam {
   std::vector<std::uint8_t> bytes;  // as it was sent
 };
 
-// <state folder>/<sensor>-<robot>/background-<scan_id>.lcm, that scan's own little LCM log;
-// seam-<scan_id>.lcm, one event. A file is whole or not there: written beside and renamed. With an
+// <state folder>/<sensor>-<robot>/background-<count>-<scan_id>.lcm, that scan's own little LCM log;
+// seam-<count>-<scan_id>.lcm, one event. They are ordered by when they were written, whatever the
+// clock said. A file is whole or not there: written beside and renamed. With an
 // empty state folder nothing touches the disk.
 class ScanStore {
  public:
@@ -43,6 +44,7 @@ class ScanStore {
 
  private:
   std::vector<std::string> files(const std::string& prefix) const;  // oldest first
+  std::string next_name(const std::string& prefix, std::int64_t scan_id) const;
   struct Event {
     std::int64_t timestamp;
     std::string channel;

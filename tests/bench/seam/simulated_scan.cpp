@@ -101,7 +101,6 @@ void SimulatedScan::publish_scan(std::int8_t state, cell_simulator::SceneKind ki
   message.images = images;
   message.lost = frames_lost_;
   message.start_command_id = scan_id_;
-  message.clock_bound = -1;
   message.previous_first_seq = message.previous_last_seq = -1;
   if (state == scan_t::ENDED) {
     message.end_cause = scan_t::STANDSTILL;

@@ -13,6 +13,7 @@
 #include "common/bus/bus.hpp"
 #include "common/service.hpp"
 #include "common/time.hpp"
+#include "services/seam_finding/scan/answer_mark.hpp"
 #include "tests/command_line/support/synthetic_recording.hpp"
 
 using namespace arcstart;
@@ -72,7 +73,7 @@ struct Cell {
   Bus bus{BusSettings{}};
   std::vector<scan_command_t> commands;
   scan_t state{};
-  seam_t seam{};
+  seam_t seam{}, forged{};  // the second by a stranger, where it has a scan_id
   std::int64_t next = 0, started = 0;
   double scan_s = 1e9;  // after which it ends by itself
   std::string also;     // a channel on which something strange is sent as well
@@ -108,7 +109,16 @@ struct Cell {
     state.utime = utime_now();
     bus.publish("LASER0_SCAN", state);
     if (!also.empty()) bus.publish_bytes(also, {1, 2, 3});
-    if (seam.scan_id != 0) bus.publish("LASER0_SEAM", seam);
+    if (seam.scan_id == 0) return;
+    bus.publish("LASER0_SEAM", seam);
+    service_status_t status{};
+    status.utime = status.run_id = 5;
+    status.state = service_status_t::RUNNING;
+    status.last_error = seam_finding::answer_mark(seam);
+    bus.publish("LASER0_SEAM_FINDING_STATUS", status);
+    if (forged.scan_id == 0) return;
+    forged.scan_id = seam.scan_id;
+    bus.publish("LASER0_SEAM", forged);
   }
   // Runs the cell until the program ends, 60 s at most.
   void serve(Program& program) {
@@ -136,6 +146,23 @@ TEST_CASE("arcstart scan runs a scan and prints its seam as JSON") {
   CHECK(cell.commands[0].longest_duration == 9);
 }
 
+TEST_CASE("a stranger's SEAM beside the true one changes nothing, and is told") {
+  Cell cell;
+  cell.scan_s = 0.7;
+  cell.forged = cell.seam;
+  cell.forged.scan_id = 1;
+  cell.forged.start[0] = 444;
+  Program program({"scan", "--kind", "workpiece"});
+  while (cell.state.state != scan_t::SCANNING) cell.step();
+  seam_t early = cell.forged;
+  early.scan_id = cell.state.scan_id;
+  cell.bus.publish("LASER0_SEAM", early);
+  cell.serve(program);
+  CHECK(program.code() == 0);
+  CHECK(nlohmann::json::parse(program.out())["start"][0] == 0);
+  CHECK_THAT(program.err(), Contains("start 444.000"));
+}
+
 TEST_CASE("Ctrl-C stops the scan, and its answer is printed all the same") {
   Cell cell;
   cell.seam.verdict = seam_t::REFUSED;
@@ -160,6 +187,24 @@ TEST_CASE("where no service runs, arcstart scan says so and ends with 1") {
   CHECK(program.out().empty());
   CHECK_THAT(program.err(),
              Contains("LASER0_SCAN is not heard") && Contains("no service of the chain is heard"));
+}
+
+TEST_CASE("arcstart cell check looks at this host and at who is on the bus") {
+  Cell cell;
+  cell.seam.scan_id = 77;
+  Program program({"cell", "check", "--seconds", "1", "--state", "/tmp"});
+  cell.serve(program);
+  CHECK(program.code() == 1);
+  CHECK_THAT(program.out(), Contains("good  route       239.255.76.67 leaves by lo, ttl 0") &&
+                                Contains("calibration none in force") &&
+                                Contains("LASER0_SEAM_FINDING runs") &&
+                                Contains("--only sensor_capture,robot_pose,calibration,extraction,"
+                                         "reconstruction\n"));
+  CHECK(program.err().empty());
+
+  Program wrong({"cell", "check", "--cell", "/not/there.yaml"});
+  cell.serve(wrong);
+  CHECK(wrong.code() == 2);
 }
 
 TEST_CASE("arcstart monitor shows what is on the bus") {

@@ -7,6 +7,8 @@
 #include <catch2/catch.hpp>
 #include <set>
 
+#include "services/seam_finding/scan/answer_mark.hpp"
+
 using namespace arcstart;
 using namespace arcstart::command_line;
 using Catch::Matchers::Contains;
@@ -15,6 +17,7 @@ namespace {
 
 constexpr std::int64_t kStep = 50'000;                  // us
 constexpr std::int64_t kUtime = 1'700'000'000'000'000;  // us, of the test's time 0
+constexpr std::int64_t kScan = kUtime + 5;              // a scan's id
 
 struct Cell {
   std::unique_ptr<Bus> bus = Bus::in_memory();
@@ -52,14 +55,31 @@ struct Cell {
     scan.refusal = why;
     bus->publish("LASER0_SCAN", scan);
   }
-  void answer(std::int64_t scan_id, std::int8_t verdict) {
+  static seam_t seam_of(std::int64_t scan_id, std::int8_t verdict, double x = 0) {
     seam_t seam{};
+    seam.start[0] = x;
     seam.scan_id = scan_id;
     seam.verdict = verdict;
     seam.refusal = verdict == seam_t::REFUSED ? seam_t::NO_WORKPIECE : 0;
     seam.reason = verdict == seam_t::FOUND ? "" : "for the test";
     seam.direction[0] = 1;
-    bus->publish("LASER0_SEAM", seam);
+    return seam;
+  }
+  void send(const seam_t& seam) { bus->publish("LASER0_SEAM", seam); }
+  // STATUS of a seam_finding that gave this answer.
+  void name(const seam_t& seam, std::int64_t run_id = 7, int pid = 70) {
+    service_status_t status{};
+    status.utime = kUtime + now;
+    status.host = "cell-pc";
+    status.pid = pid;
+    status.run_id = run_id;
+    status.last_error = "the disk is slow; " + seam_finding::answer_mark(seam);
+    bus->publish("LASER0_SEAM_FINDING_STATUS", status);
+  }
+  void answer(std::int64_t scan_id, std::int8_t verdict) {
+    const seam_t seam = seam_of(scan_id, verdict);
+    send(seam);
+    name(seam);
   }
   void state_of(const std::string& channel, std::int8_t state, const std::string& error) {
     service_status_t status{};
@@ -80,8 +100,6 @@ struct Cell {
     while (!client.is_done() && now < end) step(client);
   }
 };
-
-constexpr std::int64_t kScan = kUtime + 5;  // a scan's id
 
 }  // namespace
 
@@ -215,6 +233,52 @@ TEST_CASE("a start that was on its way when the client was stopped is stopped to
   cell.tell(scan_t::SCANNING, kScan, client.command_id());
   cell.run(client, 0.5);
   CHECK(cell.commands.back().action == scan_command_t::STOP);
+}
+
+TEST_CASE("a SEAM that no STATUS names, and one within the scan, are no answers") {
+  Cell cell;
+  ScanClient client(*cell.bus, cell.instance, {scan_t::WORKPIECE, 30, 4});
+  cell.on_command = [&](const scan_command_t& command) {
+    cell.tell(scan_t::SCANNING, kScan, command.command_id);
+  };
+  cell.run(client, 1);
+  cell.send(Cell::seam_of(kScan, seam_t::FOUND, 25));
+  cell.name(Cell::seam_of(kScan - 1, seam_t::FOUND));  // of the scan before
+  cell.tell(scan_t::ENDED, kScan, client.command_id());
+  cell.run(client, 1);
+  cell.send(Cell::seam_of(kScan, seam_t::FOUND, 26));
+  cell.run(client, 1);
+  CHECK_FALSE(client.is_done());
+  SECTION("the true one comes") {
+    cell.answer(kScan, seam_t::FOUND);
+    cell.run(client, 1);
+    REQUIRE(client.seam());
+    CHECK(client.seam()->start[0] == 0);
+    CHECK_THAT(client.stranger(), Contains("start 25.000"));
+  }
+  SECTION("none comes") {
+    cell.run(client, 5);
+    CHECK_THAT(client.failure(), Contains("no STATUS of seam_finding"));
+  }
+  SECTION("two come, of two seam_finding") {
+    cell.answer(kScan, seam_t::REFUSED);
+    cell.name(Cell::seam_of(kScan, seam_t::FOUND, 26), 8, 80);
+    cell.run(client, 1);
+    CHECK_THAT(client.failure(), Contains("process 70") && Contains("process 80"));
+  }
+}
+
+TEST_CASE("where sensor_capture dies in the scan, its answer is taken all the same") {
+  Cell cell;
+  ScanClient client(*cell.bus, cell.instance, {});
+  cell.on_command = [&](const scan_command_t& command) {
+    cell.tell(scan_t::SCANNING, kScan, command.command_id);
+  };
+  cell.run(client, 5);
+  cell.answer(kScan, seam_t::REFUSED);
+  cell.run(client, 1);
+  REQUIRE(client.seam());
+  CHECK(client.seam()->verdict == seam_t::REFUSED);
 }
 
 TEST_CASE("where nobody answers, what is missing is named") {

@@ -113,7 +113,7 @@ class Recorder {
     state.run_id = kRun;
     state.first_seq = state.last_seq = -1;
     state.previous_first_seq = state.previous_last_seq = -1;
-    state.clock_bound = -1;
+    state.clock_bound = 0;  // one clock
     for (const std::int64_t scan : scans()) {
       if (state.utime < scan) break;
       state.previous_scan_id = state.scan_id;

@@ -1,6 +1,8 @@
 // The bus over real multicast; run under scripts/in-private-network.
 #include <arpa/inet.h>
+#include <sys/resource.h>
 #include <sys/socket.h>
+#include <unistd.h>
 
 #include <catch2/catch.hpp>
 
@@ -73,6 +75,25 @@ TEST_CASE("2 MB images at 14 Hz and positions beside them arrive whole, all, in 
   CHECK(handle_until(receiver, [&] { return images.size() == 14 && poses.size() == 140; }));
   CHECK(std::is_sorted(images.begin(), images.end()));
   CHECK(std::is_sorted(poses.begin(), poses.end()));
+}
+
+TEST_CASE("too few file descriptors are no missing route") {
+  rlimit old{};
+  getrlimit(RLIMIT_NOFILE, &old);
+  const int next = dup(0);  // the lowest that is free
+  close(next);
+  rlimit few = old;
+  few.rlim_cur = static_cast<rlim_t>(next) + 3;
+  setrlimit(RLIMIT_NOFILE, &few);
+  std::string words;
+  try {
+    Bus bus{BusSettings{}};
+  } catch (const BusError& error) {
+    words = error.what();
+  }
+  setrlimit(RLIMIT_NOFILE, &old);
+  CHECK_THAT(words, Catch::Contains("more files") && Catch::Contains("ulimit -n"));
+  CHECK_NOTHROW(Bus{BusSettings{}});
 }
 
 TEST_CASE("a port of its own carries the images alone") {

@@ -100,7 +100,7 @@ TEST_CASE("a scan that is refused for too much light says so") {
   CHECK(seam.stripes_empty == 0);
   for (std::size_t k = 0; k < 20; ++k)
     without_points(scans.empty.profiles[k], profile_t::TOO_MUCH_LIGHT);
-  CHECK(background_error(scans.empty).code == seam_t::BACKGROUND_OVERLIT);
+  CHECK(background_error(scans.empty, {}).code == seam_t::BACKGROUND_OVERLIT);
 }
 
 TEST_CASE("losses are flagged, and refused where they are many") {
@@ -177,28 +177,28 @@ TEST_CASE("a scan that cannot be evaluated is refused with its reason") {
 
 TEST_CASE("a background must be complete") {
   AnsweredScans scans;
-  CHECK(background_error(scans.empty).empty());
+  CHECK(background_error(scans.empty, {}).empty());
   SECTION("single stripes may be missing") {
     scans.lose(scans.empty, 20, 1);
-    CHECK(background_error(scans.empty).empty());
+    CHECK(background_error(scans.empty, {}).empty());
     CHECK_THAT(answer_background(scans.empty, {}).remark, Catch::Contains("1 stripes lost"));
   }
   SECTION("not two in a row") {
     scans.lose(scans.empty, 20, 2);
-    CHECK_THAT(background_error(scans.empty).words, Catch::Contains("not complete"));
+    CHECK_THAT(background_error(scans.empty, {}).words, Catch::Contains("not complete"));
   }
   SECTION("not many") {
     for (int i : {40, 30, 20, 10}) scans.lose(scans.empty, i, 1);
-    CHECK_THAT(background_error(scans.empty).words, Catch::Contains("not complete"));
+    CHECK_THAT(background_error(scans.empty, {}).words, Catch::Contains("not complete"));
   }
   SECTION("not with the camera lost in it") {
     scans.empty.state.end_cause = scan_t::CAMERA_LOST;
-    CHECK(background_error(scans.empty).code == seam_t::CAMERA_LOST);
-    CHECK_THAT(background_error(scans.empty).words, Catch::Contains("camera was lost"));
+    CHECK(background_error(scans.empty, {}).code == seam_t::CAMERA_LOST);
+    CHECK_THAT(background_error(scans.empty, {}).words, Catch::Contains("camera was lost"));
   }
   SECTION("not without points") {
     for (auto& profile : scans.empty.profiles) without_points(profile, profile_t::NO_STRIPE);
-    CHECK_THAT(background_error(scans.empty).words, Catch::Contains("is the laser on"));
+    CHECK_THAT(background_error(scans.empty, {}).words, Catch::Contains("is the laser on"));
   }
   SECTION("images that never came say nothing of the laser") {
     if (GENERATE(true, false)) {
@@ -208,11 +208,11 @@ TEST_CASE("a background must be complete") {
     } else {
       scans.lose(scans.empty, 0, scans.empty.profiles.size());
     }
-    CHECK(background_error(scans.empty).code == seam_t::BACKGROUND_INCOMPLETE);
-    CHECK_THAT(background_error(scans.empty).words,
+    CHECK(background_error(scans.empty, {}).code == seam_t::BACKGROUND_INCOMPLETE);
+    CHECK_THAT(background_error(scans.empty, {}).words,
                Catch::Contains("lost") && !Catch::Contains("is the laser on"));
   }
-  const ScanRefusal error = background_error(scans.empty);
+  const ScanRefusal error = background_error(scans.empty, {});
   const seam_t receipt = answer_background(scans.empty, error);
   CHECK(meaning_error(receipt).empty());
   CHECK(receipt.verdict == (error.empty() ? seam_t::BACKGROUND_STORED : seam_t::REFUSED));

@@ -61,6 +61,57 @@ TEST_CASE("old backgrounds and answers go, the newest stay") {
   CHECK(others == 0);
 }
 
+// All of a scan, told as of another time.
+ScanMessages at(ScanMessages scan, std::int64_t shift) {
+  for (scan_t* state : {&scan.scanning, &scan.ended}) state->scan_id += shift;
+  for (auto& profile : scan.profiles) profile.scan_id += shift;
+  return scan;
+}
+
+TEST_CASE("a clock that was a day ahead and is set right costs neither order nor background") {
+  constexpr std::int64_t kDay = 86'400 * kSecond;
+  Folder folder;
+  SeamFindingSettings settings = patient();
+  settings.backgrounds_kept = 2;
+  settings.results_kept = 3;
+  Bus::Bytes newest;
+  {
+    Life life(folder.path, settings);
+    for (int i = 0; i < 4; ++i) life.scan(at(scans().empty, kDay + i * kSecond));
+    life.scan(scans().empty);
+    newest = life.bytes.back();
+  }
+  Life life(folder.path, settings);
+  life.live(1.3);
+  REQUIRE_FALSE(life.bytes.empty());
+  CHECK(life.bytes.front() == newest);
+  life.scan(scans().work);  // today's background is still there
+  CHECK(life.seams.back().verdict == seam_t::FOUND);
+  CHECK(life.seams.back().background_scan_id == scans().empty.ended.scan_id);
+}
+
+TEST_CASE("files of former names are read, and are older than all others") {
+  Folder folder;
+  {
+    Life life(folder.path);
+    life.scan(scans().empty);
+    life.scan(scans().work);
+  }
+  const fs::path stored = folder.path / "LASER0-ROBOT0";
+  const auto rename = [&](const std::string& prefix, std::int64_t scan_id) {
+    const std::string number = std::to_string(scan_id);
+    const std::string end = "-" + std::string(20 - number.size(), '0') + number + ".lcm";
+    fs::rename(stored / (prefix + "-00000001" + end), stored / (prefix + end));
+  };
+  rename("background", scans().empty.ended.scan_id);
+  rename("seam", scans().empty.ended.scan_id);
+  Life life(folder.path);
+  life.scan(scans().empty);  // answered already
+  CHECK(life.seams.empty());
+  life.scan(scans().second);
+  CHECK(life.seams.back().verdict == seam_t::FOUND);
+}
+
 TEST_CASE("a damaged state folder costs what is damaged, not the service") {
   Folder folder;
   {

@@ -47,7 +47,7 @@ ScanMessages to_messages(const ScanCloud& cloud, const ScanIdentity& identity) {
   state.request = identity.request;
   state.job = identity.job;
   state.part = identity.part;
-  state.clock_bound = -1;
+  state.clock_bound = 0;  // one clock
   state.first_seq = state.last_seq = -1;
   state.previous_first_seq = state.previous_last_seq = -1;
   messages.ended = state;
@@ -65,7 +65,7 @@ scan_t idle_state(std::int64_t run_id) {
   scan_t state{};
   state.utime = state.run_id = run_id;
   state.state = scan_t::IDLE;
-  state.clock_bound = -1;
+  state.clock_bound = 0;  // one clock
   state.first_seq = state.last_seq = -1;
   state.previous_first_seq = state.previous_last_seq = -1;
   return state;
