@@ -185,6 +185,21 @@ PreparedScan prepare(const CollectedScan& scan, const StoredBackground* backgrou
   return prepared;
 }
 
+namespace {
+
+// Before what its ends say: with a calibration that is not believed no part of it is usable.
+void fill_in_distrust(seam_t& seam, const Calibration* calibration) {
+  if (seam.verdict != seam_t::FOUND || calibration == nullptr ||
+      calibration->id != seam.calibration_id)
+    return;
+  const std::string why = distrust(calibration->verdict);
+  if (why.empty()) return;
+  seam.usable = seam_t::CALIBRATION_FAILED;
+  seam.remark += "the calibration is not to be relied on: " + why + "; ";
+}
+
+}  // namespace
+
 seam_t answer_workpiece(const CollectedScan& scan, const PreparedScan& prepared,
                         const StoredBackground* background, const SeamFindingSettings& settings,
                         const Calibration* calibration) {
@@ -218,6 +233,7 @@ seam_t answer_workpiece(const CollectedScan& scan, const PreparedScan& prepared,
   add_robot_accuracy(settings.robot_accuracy_mm, result);
   fill_in(seam, result);
   seam.background_points = static_cast<int>(prepared.segmentation.background.size());
+  fill_in_distrust(seam, calibration);
   fill_in_calibration_covariance(seam, scan, calibration);
   return seam;
 }
