@@ -24,6 +24,21 @@ std::string covariance_error(const std::vector<double>& covariance) {
   return "";
 }
 
+std::string verdict_error(const CalibrationVerdict& verdict) {
+  constexpr std::size_t kLongestName = 128;  // bytes
+  for (const double limit :
+       {verdict.camera_limit, verdict.laser_plane_limit, verdict.leave_one_out_limit,
+        verdict.predicted_limit, verdict.robot_position_limit, verdict.robot_orientation_limit})
+    if (!std::isfinite(limit) || (limit < 0 && limit != -1))
+      return "a limit must not be below 0, or be -1 where there is none";
+  if (verdict.poses < -1) return "the number of poses must not be below 0, or be -1";
+  if (verdict.forced_by.size() > kLongestName)
+    return "the name of who forced it must not be longer than 128 bytes";
+  if (!verdict.forced_by.empty() && verdict.passed != CalibrationVerdict::Passed::kFailed)
+    return "only one that failed can be forced";
+  return "";
+}
+
 }  // namespace
 
 std::string calibration_error(const Calibration& calibration) {
@@ -42,7 +57,22 @@ std::string calibration_error(const Calibration& calibration) {
                                 calibration.hand_eye_residual})
     if (!std::isfinite(residual) || (residual < 0 && residual != -1))
       return "a residual must not be below 0, or be -1 where it is not known";
+  if (std::string error = verdict_error(calibration.verdict); !error.empty()) return error;
   return covariance_error(calibration.covariance);
+}
+
+std::string distrust(const CalibrationVerdict& verdict) {
+  switch (verdict.passed) {
+    case CalibrationVerdict::Passed::kPassed:
+      return "";
+    case CalibrationVerdict::Passed::kFailed:
+      return verdict.forced_by.empty()
+                 ? "it failed its limits"
+                 : "it failed its limits, and was forced into use by " + verdict.forced_by;
+    case CalibrationVerdict::Passed::kNotJudged:
+      break;
+  }
+  return "it has no verdict: it was made before calibrations kept one";
 }
 
 std::string instance_error(const Calibration& calibration, const std::string& sensor,

@@ -5,6 +5,11 @@
 
 namespace arcstart {
 
+static_assert(static_cast<int>(CalibrationVerdict::Passed::kNotJudged) ==
+              calibration_t::NOT_JUDGED);
+static_assert(static_cast<int>(CalibrationVerdict::Passed::kPassed) == calibration_t::PASSED);
+static_assert(static_cast<int>(CalibrationVerdict::Passed::kFailed) == calibration_t::FAILED);
+
 calibration_t to_message(const Calibration& calibration) {
   const SensorModel& model = calibration.sensor_model;
   calibration_t message{};
@@ -29,11 +34,16 @@ calibration_t to_message(const Calibration& calibration) {
   message.camera_residual = calibration.camera_residual;
   message.laser_plane_residual = calibration.laser_plane_residual;
   message.hand_eye_residual = calibration.hand_eye_residual;
-  // The calibration's file does not keep yet how it was judged.
-  message.passed = calibration_t::NOT_JUDGED;
-  message.camera_limit = message.laser_plane_limit = message.leave_one_out_limit =
-      message.predicted_limit = message.robot_position_limit = message.robot_orientation_limit = -1;
-  message.poses = -1;
+  const CalibrationVerdict& verdict = calibration.verdict;
+  message.passed = static_cast<std::int8_t>(verdict.passed);
+  message.camera_limit = verdict.camera_limit;
+  message.laser_plane_limit = verdict.laser_plane_limit;
+  message.leave_one_out_limit = verdict.leave_one_out_limit;
+  message.predicted_limit = verdict.predicted_limit;
+  message.robot_position_limit = verdict.robot_position_limit;
+  message.robot_orientation_limit = verdict.robot_orientation_limit;
+  message.poses = verdict.poses;
+  message.forced_by = verdict.forced_by;
   constexpr int n = Calibration::kParameters;
   static_assert(n == calibration_t::PARAMETERS);
   message.covariance_size = calibration.covariance.empty() ? 0 : n;
@@ -72,6 +82,18 @@ Calibration calibration_from_message(const calibration_t& message) {
   calibration.camera_residual = message.camera_residual;
   calibration.laser_plane_residual = message.laser_plane_residual;
   calibration.hand_eye_residual = message.hand_eye_residual;
+  CalibrationVerdict& verdict = calibration.verdict;
+  if (message.passed < calibration_t::NOT_JUDGED || message.passed > calibration_t::FAILED)
+    throw CalibrationError("its judgement is unknown");
+  verdict.passed = static_cast<CalibrationVerdict::Passed>(message.passed);
+  verdict.camera_limit = message.camera_limit;
+  verdict.laser_plane_limit = message.laser_plane_limit;
+  verdict.leave_one_out_limit = message.leave_one_out_limit;
+  verdict.predicted_limit = message.predicted_limit;
+  verdict.robot_position_limit = message.robot_position_limit;
+  verdict.robot_orientation_limit = message.robot_orientation_limit;
+  verdict.poses = message.poses;
+  verdict.forced_by = message.forced_by;
 
   for (const auto& row : message.covariance)
     calibration.covariance.insert(calibration.covariance.end(), row.begin(), row.end());

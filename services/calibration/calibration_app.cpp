@@ -38,6 +38,16 @@ void CalibrationApp::tick(std::int64_t now_utime) {
   bus_.publish(instance_.sensor_channel("CALIBRATION"), *message_);
 }
 
+// One that failed comes into force where a person answers for it alone.
+void CalibrationApp::require_verdict(const Calibration& calibration) const {
+  const CalibrationVerdict& verdict = calibration.verdict;
+  if (verdict.passed == CalibrationVerdict::Passed::kFailed && verdict.forced_by.empty())
+    throw CalibrationFileError(
+        settings_.file + ": calibration " + calibration.id +
+        " failed its limits and is not put in force: make it anew; arcstart calibrate --force NAME "
+        "makes one that is used all the same");
+}
+
 // A bad file is read again at every look: it may have been half written, within one tick of the
 // file system's clock.
 void CalibrationApp::look_at_file() try {
@@ -50,12 +60,19 @@ void CalibrationApp::look_at_file() try {
   if (const auto error = instance_error(calibration, instance_.sensor, instance_.robot);
       !error.empty())
     throw CalibrationFileError(settings_.file + ": " + error + ": give the file made for it");
+  require_verdict(calibration);
   file_error_.clear();
   taken_ = stamp;
   if (message_ && message_->id == calibration.id) return;
   spdlog::info(fmt::format("{}: calibration {}, made by: {}{}", settings_.file, calibration.id,
                            calibration.origin, message_ ? "; it replaces " + message_->id : ""));
   message_ = to_message(calibration);
+  distrust_ = distrust(calibration.verdict);
+  if (!distrust_.empty()) {
+    distrust_ = fmt::format("calibration {}: {}; no seam measured with it is usable",
+                            calibration.id, distrust_);
+    spdlog::warn(distrust_);
+  }
   last_sent_ = 0;
 } catch (const CalibrationFileError& error) {
   file_error_ = error.what();
@@ -63,10 +80,15 @@ void CalibrationApp::look_at_file() try {
 
 Health CalibrationApp::health() const {
   Health health;
-  if (file_error_.empty()) return health;
+  if (file_error_.empty()) {
+    if (message_ && !distrust_.empty()) health.state = service_status_t::DEGRADED;
+    health.last_error = distrust_;
+    return health;
+  }
   health.state = message_ ? service_status_t::DEGRADED : service_status_t::FAULT;
   health.last_error =
       message_ ? file_error_ + "; calibration " + message_->id + " stays in force" : file_error_;
+  if (!distrust_.empty()) health.last_error += "; " + distrust_;
   return health;
 }
 

@@ -8,6 +8,7 @@
 #include <string>
 
 #include "common/bus/bus.hpp"
+#include "common/calibration.hpp"
 #include "common/service.hpp"
 #include "services/calibration/calibration_settings.hpp"
 #include "services/calibration/capture/capture_session.hpp"
@@ -35,6 +36,7 @@ class CalibrationApp : public App {
   };
 
   void look_at_file();
+  void require_verdict(const Calibration& calibration) const;
 
   Bus& bus_;
   CalibrationSettings settings_;
@@ -42,6 +44,7 @@ class CalibrationApp : public App {
   std::int64_t last_look_ = 0, last_sent_ = 0;  // us, UTC
   std::optional<FileStamp> taken_;              // of the file that was read last and was good
   std::optional<calibration_t> message_;        // the calibration in force
+  std::string distrust_;                        // why seams are not usable with it
   std::string file_error_;                      // why the file cannot be used now
   std::unique_ptr<CaptureSession> desk_;        // none where no plate is configured
 };

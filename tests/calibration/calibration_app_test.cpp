@@ -86,6 +86,48 @@ TEST_CASE("the calibration goes out once a second, byte for byte the same") {
   CHECK(cell.app->health().state == service_status_t::RUNNING);
 }
 
+TEST_CASE("a calibration that failed comes into force where a person answers for it alone") {
+  const std::string failed = replaced(kContent, "passed", "failed");
+  Cell cell;
+  cell.write(with_id(failed));
+  cell.run(0, 2);
+  CHECK(cell.messages.empty());
+  CHECK(cell.app->health().state == service_status_t::FAULT);
+  CHECK_THAT(cell.app->health().last_error,
+             Contains("failed its limits and is not put in force") && Contains("--force"));
+  cell.write(with_id(kContent));
+  cell.run(2, 3);
+  REQUIRE(cell.messages.size() == 1);
+  CHECK(cell.messages[0].passed == calibration_t::PASSED);
+  cell.write(with_id(failed));
+  cell.run(3, 4);
+  CHECK(cell.messages.back().id == fingerprint(kContent));
+  CHECK(cell.app->health().state == service_status_t::DEGRADED);
+  CHECK_THAT(cell.app->health().last_error, Contains("stays in force"));
+  const std::string forced = replaced(failed, "forced_by: \"\"", "forced_by: \"R. Meyer\"");
+  cell.write(with_id(forced));
+  cell.run(4, 5);
+  CHECK(cell.messages.back().id == fingerprint(forced));
+  CHECK(cell.messages.back().passed == calibration_t::FAILED);
+  CHECK(cell.messages.back().forced_by == "R. Meyer");
+  CHECK(cell.app->health().state == service_status_t::DEGRADED);
+  CHECK_THAT(cell.app->health().last_error, Contains("forced into use by R. Meyer"));
+  cell.write(with_id(kContent));
+  cell.run(5, 6);
+  CHECK(cell.app->health().state == service_status_t::RUNNING);
+  CHECK(cell.app->health().last_error.empty());
+}
+
+TEST_CASE("a calibration without a verdict stays in force, degraded") {
+  Cell cell;
+  cell.write(with_id(replaced(kContent, kVerdict, "")));
+  cell.run(0, 2);
+  REQUIRE(cell.messages.size() == 2);
+  CHECK(cell.messages[0].passed == calibration_t::NOT_JUDGED);
+  CHECK(cell.app->health().state == service_status_t::DEGRADED);
+  CHECK_THAT(cell.app->health().last_error, Contains("no verdict"));
+}
+
 TEST_CASE("without a file the service waits in fault, and takes it when it comes") {
   Cell cell;
   cell.run(0, 2);

@@ -181,7 +181,7 @@ std::string CaptureDataset::report(const CalibrationRun& run,
     return grid.size() == laser.size() ? cv::Mat(cv::max(grid, laser)) : grid;
   };
   return calibration_report("Calibration of " + folder_, plate_, views, run, limits,
-                            missed_limits(run, limits), both_images);
+                            missed_limits(run, limits), "", both_images);
 }
 
 }  // namespace arcstart::calibration

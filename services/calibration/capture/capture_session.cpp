@@ -5,11 +5,10 @@
 
 #include <algorithm>
 #include <cmath>
-#include <filesystem>
-#include <fstream>
 
 #include "common/time.hpp"
 #include "services/calibration/files/calibration_file.hpp"
+#include "services/calibration/files/whole_file.hpp"
 #include "services/calibration/solve/calibration_result.hpp"
 #include "services/extraction/files/image_decoding.hpp"
 
@@ -37,16 +36,6 @@ calibration_pose_t to_message(const KeptPose& pose, const RigidTransform* first)
   message.roll = std::atan2(turn(1, 0) - turn(0, 1), turn(0, 0) + turn(1, 1));
   message.distance = pose.T_camera_plate->translation().z();
   return message;
-}
-
-// Beside and renamed: nobody reads half of it, and a full disk leaves what was there.
-void write_whole(const std::string& path, const std::string& text) {
-  std::ofstream file(path + ".part", std::ios::binary);
-  file << text;
-  file.close();
-  std::error_code error;
-  if (file) std::filesystem::rename(path + ".part", path, error);
-  if (!file || error) throw CalibrationSetError(path + ": cannot be written: is the disk full?");
 }
 
 cv::Mat decoded(const image_t& image, std::string& trouble) {
@@ -194,11 +183,13 @@ CaptureSession::Result CaptureSession::solve() const {
   if (!run.has_laser)
     throw CalibrationSetError("refused: no usable pose shows a straight stripe on the plate");
   const auto missed = missed_limits(run, settings_.limits);
-  const std::string text = calibration_file_text(to_calibration(run, names));
+  Calibration calibration = to_calibration(run, names);
+  calibration.verdict = verdict_of(run, settings_.limits);
+  const std::string text = calibration_file_text(calibration);
   const std::string name = set_.folder() + "/calibration";
-  write_whole(name + ".yaml", text);
+  write_whole(name + (missed.empty() ? ".yaml" : ".failed.yaml"), text);
   write_whole(name + ".html", set_.report(run, settings_.limits));
-  if (missed.empty()) write_whole(settings_.file, text);
+  if (missed.empty()) replace_calibration_file(settings_.file, text);
   Result result;
   result.calibration_id = parse_calibration(text, name + ".yaml").id;
   result.verdict = fmt::format(

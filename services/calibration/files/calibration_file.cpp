@@ -28,6 +28,10 @@ struct FileContent {
   std::array<double, 4> camera_quaternion{};
   double time_offset = 0;
   double camera_residual = 0, laser_plane_residual = 0, hand_eye_residual = 0;
+  // Verdict, limits, poses and who forced it: may be left out together.
+  std::string verdict, forced_by;
+  std::array<double, 6> limits{-1, -1, -1, -1, -1, -1};
+  int poses = -1;
   std::vector<double> covariance;  // may be left out
 
   template <class Visitor>
@@ -49,6 +53,13 @@ struct FileContent {
     visitor("camera_residual", camera_residual);
     visitor("laser_plane_residual", laser_plane_residual);
     visitor("hand_eye_residual", hand_eye_residual);
+  }
+  template <class Visitor>
+  void visit_verdict(Visitor& visitor) {
+    visitor("verdict", verdict);
+    visitor("limits", limits);
+    visitor("poses", poses);
+    visitor("forced_by", forced_by);
   }
 };
 
@@ -89,6 +100,24 @@ std::int64_t parse_made(const std::string& made, const std::string& name) {
   return utime;
 }
 
+CalibrationVerdict to_verdict(const FileContent& content) {
+  using Passed = CalibrationVerdict::Passed;
+  CalibrationVerdict verdict;
+  if (content.verdict == "passed")
+    verdict.passed = Passed::kPassed;
+  else if (content.verdict == "failed")
+    verdict.passed = Passed::kFailed;
+  verdict.camera_limit = content.limits[0];
+  verdict.laser_plane_limit = content.limits[1];
+  verdict.leave_one_out_limit = content.limits[2];
+  verdict.predicted_limit = content.limits[3];
+  verdict.robot_position_limit = content.limits[4];
+  verdict.robot_orientation_limit = content.limits[5];
+  verdict.poses = content.poses;
+  verdict.forced_by = content.forced_by;
+  return verdict;
+}
+
 Calibration to_calibration(const FileContent& content, const std::string& name) {
   Calibration calibration;
   calibration.id = content.id;
@@ -117,6 +146,7 @@ Calibration to_calibration(const FileContent& content, const std::string& name) 
   calibration.camera_residual = content.camera_residual;
   calibration.laser_plane_residual = content.laser_plane_residual;
   calibration.hand_eye_residual = content.hand_eye_residual;
+  calibration.verdict = to_verdict(content);
   calibration.covariance = content.covariance;
   return calibration;
 }
@@ -135,6 +165,12 @@ Calibration parse_calibration(const std::string& text, const std::string& name) 
     SectionReader reader(name, "calibration", root);
     StrictReader strict{reader, root, name};
     content.visit(strict);
+    if (root["verdict"] || root["limits"] || root["poses"] || root["forced_by"]) {
+      content.visit_verdict(strict);
+      if (content.verdict != "passed" && content.verdict != "failed")
+        throw CalibrationFileError(
+            fmt::format("{}: verdict: must be passed or failed, is '{}'", name, content.verdict));
+    }
     reader("covariance", content.covariance);
     reader.refuse_unknown_keys();
   } catch (const YAML::Exception& error) {

@@ -18,9 +18,17 @@
 //     camera_residual: -1           px, -1 where not known
 //     laser_plane_residual: -1      mm
 //     hand_eye_residual: -1         mm
+//     verdict: passed               passed or failed
+//     limits: [c, l, o, e, p, r]    that it was judged by, -1 for none: camera (px), laser plane,
+//                                   leave-one-out, predicted, robot's positions (mm), orientations
+//                                   (rad)
+//     poses: 20                     that were used, -1 where not known
+//     forced_by: "name"             who put a failed one into use, empty: nobody
 //     covariance: [...]             19 rows of 19, row by row, as calibration_t orders them; may be
 //                                   left out
 //
+// The four keys from verdict on stand together or not at all, as in files made before there were
+// any: such a set is not judged.
 // Camera, laser plane and hand-eye are one set: the id tells when a part of it was exchanged by
 // hand.
 #pragma once
@@ -39,8 +47,8 @@ class CalibrationFileError : public InputError {
 };
 
 // The calibration that a file's whole text says; name stands in errors. Every key but the
-// covariance must be there, once, of its type and possible, and the id must fit. Throws
-// CalibrationFileError and nothing else, whatever the bytes.
+// verdict's four and the covariance must be there, once, of its type and possible, and the id must
+// fit. Throws CalibrationFileError and nothing else, whatever the bytes.
 Calibration parse_calibration(const std::string& text, const std::string& name);
 
 // Reads and parses. Throws CalibrationFileError.

@@ -49,6 +49,15 @@ std::string calibration_file_text(const Calibration& calibration) {
   add("camera_residual", fmt::format("{}", calibration.camera_residual));
   add("laser_plane_residual", fmt::format("{}", calibration.laser_plane_residual));
   add("hand_eye_residual", fmt::format("{}", calibration.hand_eye_residual));
+  const CalibrationVerdict& verdict = calibration.verdict;
+  if (verdict.passed != CalibrationVerdict::Passed::kNotJudged) {
+    add("verdict", verdict.passed == CalibrationVerdict::Passed::kPassed ? "passed" : "failed");
+    add("limits", list(std::array{verdict.camera_limit, verdict.laser_plane_limit,
+                                  verdict.leave_one_out_limit, verdict.predicted_limit,
+                                  verdict.robot_position_limit, verdict.robot_orientation_limit}));
+    add("poses", fmt::format("{}", verdict.poses));
+    add("forced_by", quoted(verdict.forced_by));
+  }
   if (!calibration.covariance.empty()) add("covariance", list(calibration.covariance));
   return "# arcstart calibration\nid: " + fingerprint(text) + "\n" + text;
 }

@@ -133,7 +133,8 @@ std::string charts(const Target& plate, const CalibrationRun& run,
 std::string calibration_report(const std::string& title, const Target& plate,
                                const std::vector<View>& views, const CalibrationRun& run,
                                const CalibrationLimits& limits,
-                               const std::vector<std::string>& missed, const PoseImage& image) {
+                               const std::vector<std::string>& missed, const std::string& forced_by,
+                               const PoseImage& image) {
   const std::string verdict = !run.refused.empty() ? "refused"
                               : missed.empty()     ? "passed"
                                                    : "failed";
@@ -142,6 +143,9 @@ std::string calibration_report(const std::string& title, const Target& plate,
       "<style>{1}</style><h1>{0}: <span class=\"{2}\">{2}</span></h1><p>{3} of {4} poses.</p>\n",
       escaped(title), kStyle, verdict, run.views.size(), views.size());
   if (!run.refused.empty()) page += "<p><b>" + escaped(run.refused) + "</b></p>\n";
+  if (!forced_by.empty())
+    page += "<p><b>Forced into use by " + escaped(forced_by) +
+            ": no seam measured with it is usable.</b></p>\n";
   page += list("Limits missed", missed);
   std::vector<std::string> left_out;
   for (const LeftOutView& view : run.left_out)

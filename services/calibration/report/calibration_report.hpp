@@ -14,10 +14,12 @@ namespace arcstart::calibration {
 // The laser's image of a pose, with the grid where one shows both; empty where there is none.
 using PoseImage = std::function<cv::Mat(int index)>;
 
-// views: of all poses, also those that were left out.
+// views: of all poses, also those that were left out. forced_by: who put one into use that failed,
+// empty: nobody.
 std::string calibration_report(const std::string& title, const Target& plate,
                                const std::vector<View>& views, const CalibrationRun& run,
                                const CalibrationLimits& limits,
-                               const std::vector<std::string>& missed, const PoseImage& image);
+                               const std::vector<std::string>& missed, const std::string& forced_by,
+                               const PoseImage& image);
 
 }  // namespace arcstart::calibration

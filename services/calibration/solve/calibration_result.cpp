@@ -32,6 +32,23 @@ Calibration to_calibration(const CalibrationRun& run, const CalibrationNames& na
   return calibration;
 }
 
+CalibrationVerdict verdict_of(const CalibrationRun& run, const CalibrationLimits& limits,
+                              const std::string& forced_by) {
+  CalibrationVerdict verdict;
+  const bool passed = missed_limits(run, limits).empty();
+  verdict.passed =
+      passed ? CalibrationVerdict::Passed::kPassed : CalibrationVerdict::Passed::kFailed;
+  verdict.camera_limit = limits.camera_residual_px;
+  verdict.laser_plane_limit = limits.laser_residual_mm;
+  verdict.leave_one_out_limit = limits.leave_one_out_mm;
+  verdict.predicted_limit = limits.predicted_deviation_mm;
+  verdict.robot_position_limit = limits.robot_deviation_mm;
+  verdict.robot_orientation_limit = limits.robot_deviation_deg * std::numbers::pi / 180;
+  verdict.poses = static_cast<int>(run.views.size());
+  if (!passed) verdict.forced_by = forced_by;
+  return verdict;
+}
+
 double hand_eye_residual(const Target& plate, const CalibrationRun& run) {
   const AdjustmentState& state = run.adjustment.state;
   double sum = 0;

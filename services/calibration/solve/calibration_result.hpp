@@ -16,8 +16,13 @@ struct CalibrationNames {
   std::int64_t made = 0;   // us, UTC
 };
 
-// The set with residuals and covariance, without an id. The run was not refused and has a laser.
+// The set with residuals and covariance, without an id, not judged. The run was not refused and has
+// a laser.
 Calibration to_calibration(const CalibrationRun& run, const CalibrationNames& names);
+
+// Passed where no limit is missed. forced_by: who wants one in use all the same that failed.
+CalibrationVerdict verdict_of(const CalibrationRun& run, const CalibrationLimits& limits,
+                              const std::string& forced_by = "");
 
 // RMS distance of the plate's points, carried to base with what the robot said, from where the set
 // puts them; mm.

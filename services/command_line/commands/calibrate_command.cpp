@@ -4,7 +4,6 @@
 
 #include <algorithm>
 #include <filesystem>
-#include <fstream>
 #include <iostream>
 #include <memory>
 #include <stdexcept>
@@ -15,6 +14,7 @@
 #include "services/calibration/files/calibration_file.hpp"
 #include "services/calibration/files/calibration_set.hpp"
 #include "services/calibration/files/view_detection.hpp"
+#include "services/calibration/files/whole_file.hpp"
 #include "services/calibration/report/calibration_json.hpp"
 #include "services/calibration/report/calibration_report.hpp"
 #include "services/calibration/solve/calibration_result.hpp"
@@ -29,7 +29,7 @@ namespace {
 namespace fs = std::filesystem;
 
 struct CalibrateCommandOptions {
-  std::string folder, output, cell, channel;
+  std::string folder, output, cell, channel, forced_by;
   bool without_laser = false, live = false, go_on = false;
   int poses = 20;
   std::int64_t seed = -1;
@@ -81,17 +81,6 @@ Seen look_at_all(const CalibrateCommandOptions& options, const calibration::Cali
   return seen;
 }
 
-// Beside and renamed: nobody reads half of it, and a full disk leaves what was there.
-void write_file(const fs::path& path, const std::string& text) {
-  const fs::path part(path.string() + ".part");
-  std::ofstream file(part, std::ios::binary);
-  file << text;
-  file.close();
-  std::error_code error;
-  if (file) fs::rename(part, path, error);
-  if (!file || error) throw calibration::CalibrationSetError(path.string() + ": cannot be written");
-}
-
 void tell(const calibration::CalibrationRun& run, const std::vector<std::string>& missed) {
   for (const calibration::LeftOutView& view : run.left_out)
     say("calibrate", fmt::format("pose {} left out: {}", view.index, view.why));
@@ -133,21 +122,27 @@ int run_command(const CalibrateCommandOptions& options) {
     if (options.without_laser) return grid;
     return cv::Mat(cv::max(grid, extraction::read_grey_image(pose->laser, options.channel)));
   };
+  const std::string forced_by = missed.empty() ? "" : options.forced_by;
   nlohmann::json json = calibration::to_json(run, missed);
+  if (!forced_by.empty()) json["forced_by"] = forced_by;
   const bool has_set = run.refused.empty() && run.has_laser;
-  // What misses a limit never replaces the cell's file, which may be in force.
-  const fs::path written =
-      missed.empty() ? output : fs::path(output).replace_extension(".failed.yaml");
+  // What misses a limit never replaces the cell's file, which may be in force, but by a person.
+  const fs::path written = missed.empty() || !forced_by.empty()
+                               ? output
+                               : fs::path(output).replace_extension(".failed.yaml");
   if (has_set) {
-    const std::string text =
-        calibration::calibration_file_text(calibration::to_calibration(run, options.names));
+    Calibration made = calibration::to_calibration(run, options.names);
+    made.verdict = calibration::verdict_of(run, limits, forced_by);
+    const std::string text = calibration::calibration_file_text(made);
     json["id"] = calibration::parse_calibration(text, output.string()).id;
-    write_file(written, text);
+    calibration::replace_calibration_file(written.string(), text);
   }
-  write_file(fs::path(output).replace_extension(".json"), json.dump(2) + "\n");
-  write_file(fs::path(output).replace_extension(".html"),
-             calibration::calibration_report("Calibration of " + options.folder, set.plate,
-                                             seen.views, run, limits, missed, image_of));
+  calibration::write_whole(fs::path(output).replace_extension(".json").string(),
+                           json.dump(2) + "\n");
+  calibration::write_whole(
+      fs::path(output).replace_extension(".html").string(),
+      calibration::calibration_report("Calibration of " + options.folder, set.plate, seen.views,
+                                      run, limits, missed, forced_by, image_of));
   progress.clear();
   tell(run, missed);
   std::cout << json.dump(2) << "\n";
@@ -158,13 +153,19 @@ int run_command(const CalibrateCommandOptions& options) {
                     missed.empty()
                         ? fmt::format("laser points of poses it never saw lie within {:.3f} mm RMS",
                                       run.left_one_out.laser_rms_mm)
-                        : "not within its limits, not to be used"));
+                    : forced_by.empty() ? std::string("not within its limits, not to be used")
+                                        : "not within its limits, forced into use by " + forced_by +
+                                              ": no seam measured with it is usable"));
   return missed.empty() ? 0 : 1;
 }
 
 int run_or_complain(const CalibrateCommandOptions& options) try {
   if (options.live != options.folder.empty()) {
     say("calibrate", "give either a folder or --live");
+    return 2;
+  }
+  if (options.live && !options.forced_by.empty()) {
+    say("calibrate", "--force goes with a folder: that in which --live captured its poses");
     return 2;
   }
   if (options.live)
@@ -225,6 +226,10 @@ void add_calibrate_command(CLI::App& parent, int& exit_code) {
               "Added to an image's time to look up the position, s; known from elsewhere")
       .between(-5.0, 5.0)
       .show_default();
+  command.option("--force", options->forced_by,
+                 "Name of who answers for using it though it misses a limit: it is written as one "
+                 "that passed would be, comes into force, and carries the name; no seam measured "
+                 "with it is usable");
   command.flag("--without-laser", options->without_laser,
                "Judge camera and hand-eye alone; no calibration is written");
   command.footer(

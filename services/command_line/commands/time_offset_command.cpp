@@ -2,7 +2,6 @@
 
 #include <fmt/core.h>
 
-#include <fstream>
 #include <iostream>
 #include <memory>
 #include <nlohmann/json.hpp>
@@ -10,6 +9,7 @@
 #include "common/options.hpp"
 #include "common/time.hpp"
 #include "services/calibration/files/calibration_file.hpp"
+#include "services/calibration/files/whole_file.hpp"
 #include "services/calibration/sweeps/time_offset.hpp"
 #include "services/command_line/commands/say.hpp"
 #include "services/command_line/recordings/recorded_sweeps.hpp"
@@ -69,11 +69,8 @@ int run(const TimeOffsetOptions& options) {
   if (options.output.empty()) return 0;
   Calibration changed = calibration::with_time_offset(calibration, found);
   changed.made = utime_now();
-  if (!(std::ofstream(options.output, std::ios::binary)
-        << calibration::calibration_file_text(changed))) {
-    say("time-offset", options.output + ": cannot be written");
-    return 2;
-  }
+  calibration::replace_calibration_file(options.output,
+                                        calibration::calibration_file_text(changed));
   say("time-offset", options.output + ": the calibration with this time offset");
   return 0;
 }

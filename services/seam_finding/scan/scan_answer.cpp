@@ -195,6 +195,21 @@ PreparedScan prepare(const CollectedScan& scan, const StoredBackground* backgrou
   return prepared;
 }
 
+namespace {
+
+// Before what its ends say: with a calibration that is not believed no part of it is usable.
+void fill_in_distrust(seam_t& seam, const Calibration* calibration) {
+  if (seam.verdict != seam_t::FOUND || calibration == nullptr ||
+      calibration->id != seam.calibration_id)
+    return;
+  const std::string why = distrust(calibration->verdict);
+  if (why.empty()) return;
+  seam.usable = seam_t::CALIBRATION_FAILED;
+  seam.remark += "the calibration is not to be relied on: " + why + "; ";
+}
+
+}  // namespace
+
 seam_t answer_workpiece(const CollectedScan& scan, const PreparedScan& prepared,
                         const StoredBackground* background, const SeamFindingSettings& settings,
                         const Calibration* calibration) {
@@ -230,6 +245,7 @@ seam_t answer_workpiece(const CollectedScan& scan, const PreparedScan& prepared,
   fill_in(seam, result);
   judge_clocks(seam, scan, settings);
   seam.background_points = static_cast<int>(prepared.segmentation.background.size());
+  fill_in_distrust(seam, calibration);
   fill_in_calibration_covariance(seam, scan, calibration);
   return seam;
 }

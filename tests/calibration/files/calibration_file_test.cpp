@@ -61,6 +61,48 @@ TEST_CASE("a sound file is read to the last number") {
   CHECK(calibration.hand_eye_residual == -1);
 }
 
+TEST_CASE("how a set was judged is read, and goes on to the bus and into the next file") {
+  const std::string forced = replaced(replaced(kContent, "passed", "failed"), "forced_by: \"\"",
+                                      "forced_by: \"R. Meyer\"");
+  const Calibration calibration = parse_calibration(with_id(forced), "cal.yaml");
+  const calibration_t sent = to_message(calibration);
+  CHECK(sent.passed == calibration_t::FAILED);
+  CHECK(sent.camera_limit == 1);
+  CHECK(sent.laser_plane_limit == 0.15);
+  CHECK(sent.leave_one_out_limit == 0.5);
+  CHECK(sent.predicted_limit == 0.4);
+  CHECK(sent.robot_position_limit == 1.5);
+  CHECK(sent.robot_orientation_limit == 0.0035);
+  CHECK(sent.poses == 20);
+  CHECK(sent.forced_by == "R. Meyer");
+  CHECK_THAT(distrust(calibration.verdict), Contains("failed") && Contains("R. Meyer"));
+  const calibration_t again = to_message(
+      parse_calibration(calibration_file_text(calibration_from_message(sent)), "again.yaml"));
+  CHECK(again.passed == sent.passed);
+  CHECK(again.robot_orientation_limit == sent.robot_orientation_limit);
+  CHECK(again.predicted_limit == sent.predicted_limit);
+  CHECK(again.poses == sent.poses);
+  CHECK(again.forced_by == sent.forced_by);
+  CHECK(distrust(parse_calibration(with_id(kContent), "cal.yaml").verdict).empty());
+
+  CHECK_THAT(error_of_content("verdict: passed", "verdict: none"), Contains("passed or failed"));
+  CHECK_THAT(error_of_content("forced_by: \"\"", "forced_by: \"R\""),
+             Contains("only one that failed can be forced"));
+  CHECK_THAT(error_of_content("0.15", "-0.15"), Contains("limit must not be below 0"));
+  CHECK_THAT(error_of_content("poses: 20", "poses: -2"), Contains("number of poses"));
+}
+
+TEST_CASE("a file of before, without a verdict, is read as not judged") {
+  const Calibration calibration =
+      parse_calibration(with_id(replaced(kContent, kVerdict, "")), "cal.yaml");
+  const calibration_t sent = to_message(calibration);
+  CHECK(sent.passed == calibration_t::NOT_JUDGED);
+  CHECK(sent.predicted_limit == -1);
+  CHECK(sent.poses == -1);
+  CHECK_THAT(distrust(calibration.verdict), Contains("no verdict"));
+  CHECK(calibration_file_text(calibration).find("verdict") == std::string::npos);
+}
+
 TEST_CASE("any part changed by hand is told by the id") {
   const std::string sound = with_id(kContent);
   const std::pair<const char*, const char*> changes[] = {
@@ -73,6 +115,8 @@ TEST_CASE("any part changed by hand is told by the id") {
       {"simulator's", "some one's"},
       {"TCP1", "TCP2"},
       {"hand_eye_residual: -1\n", "hand_eye_residual: -1\n\n"},
+      {"verdict: passed", "verdict: failed"},
+      {"forced_by: \"\"", "forced_by: \"R\""},
   };
   for (const auto& [old, by] : changes)
     CHECK_THAT(error_of(replaced(sound, old, by)),
@@ -97,10 +141,26 @@ TEST_CASE("nothing but comments stands before the id") {
 }
 
 TEST_CASE("a key that is missing, unknown, twice there or of a wrong type is named with its line") {
-  for (const char* key :
-       {"sensor", "robot", "tool", "made", "origin", "width", "height", "camera_matrix",
-        "distortion", "laser_plane", "camera_position", "camera_quaternion", "time_offset",
-        "camera_residual", "laser_plane_residual", "hand_eye_residual"}) {
+  for (const char* key : {"sensor",
+                          "robot",
+                          "tool",
+                          "made",
+                          "origin",
+                          "width",
+                          "height",
+                          "camera_matrix",
+                          "distortion",
+                          "laser_plane",
+                          "camera_position",
+                          "camera_quaternion",
+                          "time_offset",
+                          "camera_residual",
+                          "laser_plane_residual",
+                          "hand_eye_residual",
+                          "verdict",
+                          "limits",
+                          "poses",
+                          "forced_by"}) {
     const std::size_t begin = ("\n" + kContent).find(std::string("\n") + key + ":");
     std::string content = kContent;
     content.erase(begin, content.find('\n', begin) + 1 - begin);
@@ -109,7 +169,7 @@ TEST_CASE("a key that is missing, unknown, twice there or of a wrong type is nam
     CHECK_THAT(error_of(with_id(kContent + key + ": 0\n")), Contains(key) && Contains("twice"));
   }
   CHECK_THAT(error_of(with_id(kContent + "colour: red\n")),
-             Contains("cal.yaml:19: calibration.colour: unknown key"));
+             Contains("cal.yaml:23: calibration.colour: unknown key"));
   CHECK_THAT(error_of_content("width: 1600", "width: wide"),
              Contains("cal.yaml:8: calibration.width: must be a whole number"));
   CHECK_THAT(error_of_content("width: 1600", "width: 1600.5"), Contains("whole number"));

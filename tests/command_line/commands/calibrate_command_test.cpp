@@ -115,6 +115,8 @@ TEST_CASE("a folder gives a calibration that the service reads, with its report"
   CHECK(calibration.time_offset == -0.02);
   CHECK(calibration.covariance.size() == 361);
   CHECK(calibration.hand_eye_residual > 0);
+  CHECK(calibration.verdict.passed == CalibrationVerdict::Passed::kPassed);
+  CHECK(calibration.verdict.poses == kPoses);
   CHECK(calibration.camera_residual == json["camera_residual"].get<double>());
   const TrueSensor sensor = make_true_sensor(small_sensor());
   CHECK((calibration.T_tool_camera.translation() - sensor.T_tool_camera.translation()).norm() <
@@ -139,6 +141,21 @@ TEST_CASE("the cell's limits decide") {
   const std::string failed = (folder.root / "set/calibration.failed.yaml").string();
   CHECK(read_calibration_file(failed).id == nlohmann::json::parse(outcome.out)["id"]);
   CHECK_THAT(outcome.err, Contains("calibration.failed.yaml: not within its limits"));
+  using Passed = CalibrationVerdict::Passed;
+  CHECK(read_calibration_file(failed).verdict.passed == Passed::kFailed);
+  CHECK(read_calibration_file(failed).verdict.leave_one_out_limit == 0.01);
+  CHECK(read_calibration_file(failed).verdict.poses == kPoses);
+  // By a person, over what was there, which is kept.
+  const auto forced = folder.run("set --cell cell.yaml --force 'R. Meyer'");
+  CHECK(forced.code == 1);
+  CHECK_THAT(forced.err, Contains("forced into use by R. Meyer"));
+  const Calibration used = read_calibration_file((folder.root / "set/calibration.yaml").string());
+  CHECK(used.verdict.passed == Passed::kFailed);
+  CHECK(used.verdict.forced_by == "R. Meyer");
+  CHECK(text_of(folder.root / "set/calibration.former.yaml") == "in force");
+  CHECK_THAT(text_of(folder.root / "set/calibration.html"),
+             Contains("Forced into use by R. Meyer"));
+  CHECK(nlohmann::json::parse(forced.out)["forced_by"] == "R. Meyer");
   std::ofstream(folder.root / "cell.yaml") << "calibration:\n  leave_one_out: 0.01\n";
   CHECK(folder.run("set --cell cell.yaml").code == 2);
 }

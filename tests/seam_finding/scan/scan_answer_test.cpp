@@ -108,6 +108,28 @@ TEST_CASE("course, stations and torch are told") {
   CHECK(std::equal(std::begin(seam.start), std::end(seam.start), seam.torch_position));
 }
 
+TEST_CASE("with a calibration that did not pass, or was never judged, no seam is usable") {
+  using Passed = CalibrationVerdict::Passed;
+  const AnsweredScans scans;
+  const StoredBackground background(scans.empty, {});
+  const PreparedScan prepared = prepare(scans.work, &background);
+  Calibration calibration;
+  calibration.id = ScanIdentity{}.calibration_id;
+  const auto answer = [&](Passed passed, const std::string& forced_by) {
+    calibration.verdict.passed = passed;
+    calibration.verdict.forced_by = forced_by;
+    return answer_workpiece(scans.work, prepared, &background, {}, &calibration);
+  };
+  CHECK(answer(Passed::kPassed, "").usable == seam_t::USABLE);
+  const seam_t forced = answer(Passed::kFailed, "R. Meyer");
+  CHECK(forced.verdict == seam_t::FOUND);
+  CHECK(forced.usable == seam_t::CALIBRATION_FAILED);
+  CHECK_THAT(forced.remark, Catch::Contains("forced into use by R. Meyer"));
+  const seam_t unjudged = answer(Passed::kNotJudged, "");
+  CHECK(unjudged.usable == seam_t::CALIBRATION_FAILED);
+  CHECK_THAT(unjudged.remark, Catch::Contains("no verdict"));
+}
+
 TEST_CASE("systematic deviations come from the covariance of the scan's calibration") {
   const AnsweredScans scans;
   const StoredBackground background(scans.empty, {});
