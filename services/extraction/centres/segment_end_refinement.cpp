@@ -19,7 +19,8 @@ constexpr double kFitted = 10;
 constexpr int kFewestFitted = 15;
 constexpr double kMostOff = 0.15;  // a line's centres, in the root of the mean square; px
 constexpr double kNearAnother = 4;
-constexpr double kLeastStep = 0.5;  // px from the centre before
+constexpr double kFarthestBeyond = 3;  // of the light's end; kernels of 1.3 widths see no farther
+constexpr double kLeastStep = 0.5;     // px from the centre before
 constexpr std::int16_t kDropped = -1;
 
 // Of one segment, from the end in question inwards.
@@ -121,6 +122,20 @@ std::optional<MovedEnd> moved_end(const GreyImage& image, const std::vector<Stri
   return moved;
 }
 
+// Centres at an end that cannot be measured whose strength is below half of that farther in: on the
+// stripe's middle line it is half where the light ends, so that these lie beyond.
+int beyond_light(const Segment& segment) {
+  const double width = segment.width();
+  const int farthest = static_cast<int>(std::ceil(kFarthestBeyond * width));
+  if (width == 0 || segment.size() < farthest + 2 * kFewestFitted) return 0;
+  std::array<float, kFewestFitted> inner;
+  for (int i = 0; i < kFewestFitted; ++i) inner[i] = segment[farthest + i].strength;
+  std::nth_element(inner.begin(), inner.begin() + kFewestFitted / 2, inner.end());
+  int beyond = 0;
+  while (beyond < farthest && 2 * segment[beyond].strength < inner[kFewestFitted / 2]) ++beyond;
+  return beyond;
+}
+
 }  // namespace
 
 void refine_segment_ends(const GreyImage& image, std::vector<StripeCentre>& centres) {
@@ -133,7 +148,13 @@ void refine_segment_ends(const GreyImage& image, std::vector<StripeCentre>& cent
       const SegmentEnd why = segment[0].end;
       if (why != SegmentEnd::kEdge && why != SegmentEnd::kGap) continue;
       const auto moved = moved_end(image, centres, segment);
-      if (!moved) continue;
+      if (!moved) {
+        const int beyond = beyond_light(segment);
+        centres[segment.index(beyond)].end = why;
+        for (int i = 0; i < beyond; ++i) centres[segment.index(i)].segment = kDropped;
+        if (!last) begin += beyond;
+        continue;
+      }
       StripeCentre& tip = centres[segment.index(0)];
       tip.u = moved->u, tip.v = moved->v;
       for (int i = 1; i < moved->dropped; ++i) centres[segment.index(i)].segment = kDropped;

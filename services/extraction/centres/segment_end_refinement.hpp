@@ -15,9 +15,10 @@ namespace arcstart::extraction {
 //
 // So the first and the last centre of each chosen segment that ends at an edge or a gap are put
 // there, on the line of the centres far enough from the end not to feel it, and those beyond are
-// dropped. Brightness is the bend across the stripe, which no even background changes. An end stays
-// as found where that place cannot be told: the segment is short, its top white, another stripe is
-// near, or the light does not stop.
+// dropped. Brightness is the bend across the stripe, which no even background changes. Where that
+// place cannot be told (the segment is short, its top white, another stripe is near, or the light
+// does not stop), centres at the end of less than half the strength farther in are dropped, and the
+// rest stays as found.
 void refine_segment_ends(const GreyImage& image, std::vector<StripeCentre>& centres);
 
 }  // namespace arcstart::extraction

@@ -1,3 +1,6 @@
+#include "services/extraction/centres/segment_end_refinement.hpp"
+
+#include <algorithm>
 #include <catch2/catch.hpp>
 #include <numbers>
 #include <opencv2/imgproc.hpp>
@@ -117,6 +120,27 @@ TEST_CASE("an end that cannot be told better stays as found") {
     light.colRange(0, 228).setTo(10);
     CHECK(moved(light) < 0.5);
   }
+}
+
+TEST_CASE("ends that cannot be measured: centres of less than half the strength are beyond") {
+  // No light at all, so that no end is seen; a level segment of strength 10, fainter at its ends.
+  const cv::Mat dark(200, 400, CV_8U, 7);
+  const auto why = GENERATE(SegmentEnd::kGap, SegmentEnd::kSaturation);
+  std::vector<StripeCentre> centres;
+  for (int k = 0; k < 120; ++k) {
+    const float strength = k < 4 ? 4.5f : k >= 117 ? 1.0f : k == 50 ? 2.0f : 10.0f;
+    centres.push_back({100.0f + static_cast<float>(k), 90, strength, 3, 0.1f, 2, true,
+                       k == 0 || k == 119 ? why : SegmentEnd::kContinues});
+  }
+  refine_segment_ends(view_of(dark), centres);
+  const bool dropped = why == SegmentEnd::kGap;  // elsewhere an end stays as found
+  REQUIRE(centres.size() == (dropped ? 113 : 120));
+  CHECK(centres.front().u == (dropped ? 104 : 100));
+  CHECK(centres.back().u == (dropped ? 216 : 219));
+  CHECK(centres.front().end == why);
+  CHECK(centres.back().end == why);
+  CHECK(std::count_if(centres.begin(), centres.end(),
+                      [](const StripeCentre& c) { return c.end != SegmentEnd::kContinues; }) == 2);
 }
 
 }  // namespace arcstart::extraction
