@@ -11,10 +11,12 @@
 namespace arcstart {
 namespace {
 
-// A section is a service's folder, or the bus that all share.
-const std::set<std::string> kSections = {"bus",         "sensor_capture", "robot_pose",
-                                         "extraction",  "reconstruction", "seam_finding",
-                                         "calibration", "cell_simulator", "robot_link"};
+// A section is a service's folder, the bus that all share, or the folder of jobs with what it held
+// for recorded scans.
+const std::set<std::string> kSections = {"bus",        "sensor_capture", "robot_pose",
+                                         "extraction", "reconstruction", "seam_finding",
+                                         "robot_link", "calibration",    "cell_simulator",
+                                         "jobs",       "jobs_of_scans"};
 
 std::string where(const std::string& file, const YAML::Node& node) {
   const YAML::Mark mark = node.Mark();

@@ -1,11 +1,13 @@
 #include "services/seam_finding/find_seam.hpp"
 
+#include <algorithm>
 #include <utility>
 #include <vector>
 
 #include "services/seam_finding/answer/accuracy.hpp"
 #include "services/seam_finding/answer/description.hpp"
 #include "services/seam_finding/answer/seam_measurements.hpp"
+#include "services/seam_finding/answer/weld_order.hpp"
 #include "services/seam_finding/background/continuation.hpp"
 #include "services/seam_finding/background/scan_view.hpp"
 #include "services/seam_finding/cloud/sampling.hpp"
@@ -38,6 +40,18 @@ SeamResult not_found(Choice choice) {
   if (choice.ambiguous) result.verdict = SeamResult::Verdict::kAmbiguous;
   result.alternatives = std::move(choice.alternatives);
   return result;
+}
+
+// Joints whose middle lies outside the search box go behind the others: a flaw. What they are made
+// of stays in the cloud, where it may hide a plate, or close a seam.
+void set_aside_outside(std::vector<Joint>& candidates, const SeamFindingSettings& settings) {
+  if (settings.search_box_mm.empty()) return;
+  for (Joint& joint : candidates) {
+    const double outside = outside_box(settings, (joint.start() + joint.end()) / 2);
+    if (outside > 0 && !joint.flaw) joint.flaw = {Code::kOutsideBox, outside};
+  }
+  std::stable_partition(candidates.begin(), candidates.end(),
+                        [](const Joint& joint) { return !joint.flaw; });
 }
 
 // The ends by the rule that is set.
@@ -104,6 +118,7 @@ SeamResult find_seam(const ScanCloud& cloud, const Segmentation& segmentation,
   auto candidates = find_joints(scan, std::move(faces), scales, settings);
   if (candidates.empty())
     return refused(planes == 1 ? Reason{Code::kOnePlane} : Reason{Code::kNoPair, planes});
+  set_aside_outside(candidates, settings);
   Choice choice = choose_joint(scan, std::move(candidates), scales, settings);
   if (!choice.joint) return not_found(std::move(choice));
 

@@ -16,9 +16,10 @@ constexpr std::int64_t kRepetition = 1'000'000;  // us
 }  // namespace
 
 SeamFindingApp::SeamFindingApp(Bus& bus, const SeamFindingSettings& settings,
-                               const Instance& instance)
+                               const Instance& instance, JobBook jobs)
     : bus_(bus),
       settings_(settings),
+      jobs_(std::move(jobs)),
       seam_channel_(instance.sensor_channel("SEAM")),
       store_(instance, settings.backgrounds_kept, settings.results_kept) {
   std::vector<std::string> warnings;
@@ -45,6 +46,8 @@ SeamFindingApp::SeamFindingApp(Bus& bus, const SeamFindingSettings& settings,
 
 void SeamFindingApp::take(const scan_t& state) {
   if (state.state == scan_t::SCANNING && state.scan_id != answered_scan_) answer_.clear();
+  // Read as the scan begins, so that what holds is stated before the answer.
+  if (state.state == scan_t::SCANNING) jobs_.take(state.scan_id, state.job);
   const bool awaited = collector_.awaits_profiles();
   collector_.take(state);
   // The end of a scan is told again and again, and is no sign of life of the chain behind it.
@@ -80,13 +83,21 @@ void SeamFindingApp::answer_decided() {
 }
 
 seam_t SeamFindingApp::take_workpiece(const CollectedScan& scan) {
+  const JobInForce& job = jobs_.take(scan.state.scan_id, scan.state.job);
+  if (!job.refusal.empty() && scan.refusal.empty()) {
+    CollectedScan refused = scan;
+    refused.refusal = {seam_t::CALL, job.refusal};
+    return answer_workpiece(refused, {}, nullptr, settings_);
+  }
   const StoredBackground* background = background_for(scan.state.scan_id, calibration_of(scan));
-  return answer_workpiece(scan, running_.finish(scan, background), background, settings_,
+  return answer_workpiece(scan, running_.finish(scan, background), background, job.settings,
                           calibration_for(scan));
 }
 
 seam_t SeamFindingApp::take_background(const CollectedScan& scan) {
-  const ScanRefusal error = background_error(scan, settings_);
+  ScanRefusal error = background_error(scan, settings_);
+  const JobInForce& job = jobs_.take(scan.state.scan_id, scan.state.job);
+  if (error.empty() && !job.refusal.empty()) error = {seam_t::CALL, job.refusal};
   seam_t receipt = answer_background(scan, error);
   if (!error.empty()) return receipt;
   remember(scan);
@@ -123,8 +134,10 @@ const Calibration* SeamFindingApp::calibration_for(const CollectedScan& scan) co
 
 const StoredBackground* SeamFindingApp::background_for(std::int64_t scan_id,
                                                        const std::string& calibration) const {
+  const std::string& job = jobs_.settings(scan_id).background_job;
   for (auto background = backgrounds_.rbegin(); background != backgrounds_.rend(); ++background)
-    if ((*background)->scan_id() < scan_id && (*background)->calibration_id() == calibration)
+    if ((*background)->scan_id() < scan_id && (*background)->calibration_id() == calibration &&
+        (job.empty() || (*background)->job() == job))
       return background->get();
   return nullptr;
 }

@@ -9,6 +9,7 @@
 
 #include "common/calibration.hpp"
 #include "common/service.hpp"
+#include "services/seam_finding/jobs/job_book.hpp"
 #include "services/seam_finding/scan/running_scan.hpp"
 #include "services/seam_finding/scan/scan_store.hpp"
 
@@ -18,7 +19,10 @@ class SeamFindingApp : public App {
  public:
   // The bus must outlive the app. Without a state folder nothing touches the disk. Throws
   // ScanStoreError where the folder cannot be made.
-  SeamFindingApp(Bus& bus, const SeamFindingSettings& settings, const Instance& instance);
+  SeamFindingApp(Bus& bus, const SeamFindingSettings& settings, const Instance& instance,
+                 JobBook jobs);
+  SeamFindingApp(Bus& bus, const SeamFindingSettings& settings, const Instance& instance)
+      : SeamFindingApp(bus, settings, instance, JobBook(settings)) {}
 
   // Repeats the answer at 1 Hz until the next scan starts, and gives up a scan whose chain is dead.
   // Nothing else here hangs on real time.
@@ -40,6 +44,7 @@ class SeamFindingApp : public App {
 
   Bus& bus_;
   SeamFindingSettings settings_;
+  JobBook jobs_;
   std::string seam_channel_;
   ScanCollector collector_;
   RunningScan running_;

@@ -1,7 +1,10 @@
 // Section `seam_finding` of cell.yaml.
 #pragma once
 
+#include <array>
+#include <cmath>
 #include <string>
+#include <vector>
 
 #include "common/configuration.hpp"
 
@@ -10,6 +13,7 @@ namespace arcstart::seam_finding {
 enum class BackgroundRule { kSurface, kNeighbours };
 enum class PlaneRule { kRanked, kLargest };
 enum class StartRule { kEdges, kStripe, kCentroid };
+enum class WeldStart { kNear, kFar };
 
 struct SeamFindingSettings {
   // Background. `surface`: nearer than the distance to the background's local surface.
@@ -91,6 +95,28 @@ struct SeamFindingSettings {
   double torch_work_angle_deg = 0;     // between it and the flatter plate; 0: in the middle of both
   double torch_travel_angle_deg = 10;  // leaning back, so that the wire points ahead
   double approach_mm = 100;            // from the start back along the torch
+  // Its orientation as taught: of the tool in base, W P R in deg, z along the wire into the joint.
+  // Empty: by the angles above.
+  std::vector<double> torch_wpr_deg;
+  // Of the wire's tip from the start, not of the start itself: along the weld, z half-way between
+  // the plates' normals out of the joint, and y = z x x; x, y, z in mm.
+  std::array<double, 3> bias_mm = {0, 0, 0};
+
+  // Where the seam is looked for, and at which end it starts. Mostly a job's.
+  // x, y, z of two corners in base: the start and the end of the seam lie between them. A joint
+  // whose middle does not is none of the candidates. Empty: anywhere.
+  std::vector<double> search_box_mm;
+  // x, y, z in base, any length: what near and far are counted along. Empty: the tool's own way in
+  // the scan, so that a scan run backwards gives the other end.
+  std::vector<double> search_direction;
+  // The weld starts at that end of the seam which a search comes to first, or at the far one.
+  WeldStart weld_start = WeldStart::kNear;
+  // An end that is known less well is not determined; random part, standard deviation along its
+  // worst axis. 0: no limit but the stripes' own spacing.
+  double end_deviation_max_mm = 0;
+  // Background scans count that were made for this job (arcstart scan --kind background --job
+  // NAME); empty: any.
+  std::string background_job = "";
 
   // When to refuse.
   // A shorter seam is none: the edge of a block, of a clamp's jaw, of a bar's end. EN 1993-1-8,
@@ -111,7 +137,8 @@ struct SeamFindingSettings {
   double clock_displacement_max_mm = 0.1;
 
   int backgrounds_kept = 5;  // newest background scans kept in the state folder
-  int results_kept = 50;     // newest results kept there
+  // Newest answers kept there: the history (arcstart history). Some 10 KB each.
+  int results_kept = 1000;
 
   template <class Visitor>
   void visit(Visitor& visitor) {
@@ -147,6 +174,13 @@ struct SeamFindingSettings {
     visitor("torch_work_angle_deg", torch_work_angle_deg, between(0, 150));
     visitor("torch_travel_angle_deg", torch_travel_angle_deg, between(-45, 45));
     visitor("approach_mm", approach_mm, between(10, 1000));
+    visitor("torch_wpr_deg", torch_wpr_deg, is_turn_or_empty);
+    visitor("bias_mm", bias_mm, is_near);
+    visitor("search_box_mm", search_box_mm, is_box_or_empty);
+    visitor("search_direction", search_direction, is_direction_or_empty);
+    visitor("weld_start", weld_start, Names{{"near", "far"}});
+    visitor("end_deviation_max_mm", end_deviation_max_mm, between(0, 20));
+    visitor("background_job", background_job);
     visitor("seam_length_min_mm", seam_length_min_mm, between(0, 1000));
     visitor("stripes_min", stripes_min, between(3, 1000));
     visitor("ambiguity_ratio", ambiguity_ratio, between(1, 10));
@@ -155,6 +189,27 @@ struct SeamFindingSettings {
     visitor("clock_displacement_max_mm", clock_displacement_max_mm, between(0.01, 10));
     visitor("backgrounds_kept", backgrounds_kept, between(1, 1000));
     visitor("results_kept", results_kept, between(1, 10000));
+  }
+
+  static std::string is_turn_or_empty(const std::vector<double>& wpr) {
+    return wpr.empty() || wpr.size() == 3 ? "" : "must be three numbers W P R, or none";
+  }
+  static std::string is_near(const std::array<double, 3>& bias) {
+    for (const double number : bias)
+      if (!(std::abs(number) <= 50)) return "must lie within 50 mm";
+    return "";
+  }
+  static std::string is_box_or_empty(const std::vector<double>& box) {
+    if (box.empty()) return "";
+    if (box.size() != 6) return "must be six numbers, x y z of two corners, or none";
+    for (int axis = 0; axis < 3; ++axis)
+      if (!(box[axis] < box[axis + 3])) return "must have its lower corner first";
+    return "";
+  }
+  static std::string is_direction_or_empty(const std::vector<double>& direction) {
+    if (direction.empty()) return "";
+    if (direction.size() != 3) return "must be three numbers x y z, or none";
+    return std::hypot(direction[0], direction[1], direction[2]) > 1e-6 ? "" : "must not be 0";
   }
 };
 

@@ -98,8 +98,10 @@ void add_scan_command(CLI::App& parent, int& exit_code) {
               "Identifies the workpiece; comes back in the SEAM as `part`")
       .check(name);
   command
-      .option("--job", options->request.job,
-              "Name of the job that the scan belongs to; comes back as `job`")
+      .option(
+          "--job", options->request.job,
+          "Name of the job that the scan belongs to; comes back as `job`. Where cell.yaml has a "
+          "section jobs, jobs/NAME.yaml says what holds for it")
       .check(name);
   command.option("--request", options->request.number,
                  "Number of whoever asks, not 0; comes back as `request`");

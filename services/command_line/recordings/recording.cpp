@@ -211,11 +211,42 @@ void Recording::take_status(const RecordedMessage& message) {
   service_status_t status;
   if (const std::string error = decode(logs_[message.log].read(event), status); !error.empty())
     return note_undecodable(event.channel, error);
+  take_jobs(status);
   const auto [stated, is_new] = configurations_.try_emplace(status.service, status.configuration);
   if (is_new || stated->second == status.configuration) return;
   stated->second = status.configuration;
   warnings_.push_back(fmt::format("{}: the configuration of {} changed in it; the last one is used",
                                   name_, printable(status.service)));
+}
+
+// Cuts off what held for the newest scans alone, and adds it to what the recording states of all.
+void Recording::take_jobs(service_status_t& status) {
+  const std::string begin = "jobs_of_scans:\n";
+  const auto at = status.configuration.rfind("\n" + begin);
+  if (status.service != "seam_finding" || at == std::string::npos) return;
+  const std::string section = status.configuration.substr(at + 1);
+  status.configuration.resize(at + 1);
+  try {
+    const auto stated = Configuration::from_text(section, name_ + ": seam_finding's STATUS")
+                            .read<seam_finding::JobsOfScans>("jobs_of_scans");
+    const std::size_t count = std::min(
+        {stated.scan_id.size(), stated.name.size(), stated.text.size(), stated.refusal.size()});
+    for (std::size_t i = 0; i < count; ++i)
+      jobs_of_scans_[stated.scan_id[i]] = {stated.name[i], stated.text[i], stated.refusal[i]};
+  } catch (const ConfigurationError& error) {
+    warnings_.push_back(printable(error.what()));
+  }
+}
+
+seam_finding::JobsOfScans Recording::jobs_of_scans() const {
+  seam_finding::JobsOfScans all;
+  for (const auto& [scan_id, job] : jobs_of_scans_) {
+    all.scan_id.push_back(scan_id);
+    all.name.push_back(job[0]);
+    all.text.push_back(job[1]);
+    all.refusal.push_back(job[2]);
+  }
+  return all;
 }
 
 void Recording::add(ChannelKind kind, const RecordedMessage& message) {

@@ -14,6 +14,7 @@
 #include "common/input_error.hpp"
 #include "services/command_line/recordings/event_order.hpp"
 #include "services/command_line/recordings/message_facts.hpp"
+#include "services/seam_finding/jobs/job_book.hpp"
 
 namespace arcstart::command_line {
 
@@ -70,6 +71,8 @@ class Recording {
   // The configuration a service stated last, "extraction"; nothing where its STATUS was not
   // recorded.
   std::optional<std::string> configuration(const std::string& service) const;
+  // What seam_finding stated of its scans' jobs, of each scan the last.
+  seam_finding::JobsOfScans jobs_of_scans() const;
 
   // Why no answer came for a scan of this recording.
   std::string why_unanswered(const RecordedScan& scan) const;
@@ -87,6 +90,7 @@ class Recording {
   void take_scan(RecordedMessage message);
   void take_calibration(RecordedMessage message);
   void take_status(const RecordedMessage& message);
+  void take_jobs(service_status_t& status);
   void add(ChannelKind kind, const RecordedMessage& message);
   bool has(ChannelKind kind) const { return streams_.contains(kind); }
 
@@ -102,9 +106,10 @@ class Recording {
   std::map<ChannelKind, std::map<std::pair<std::int64_t, std::int64_t>, std::size_t>>
       seen_;  // (run_id, seq): file
   std::map<std::int64_t, RecordedScan> scans_;
-  std::map<std::string, std::string> configurations_;  // by service
-  std::int64_t newest_pose_ = 0;                       // us
-  std::map<std::string, Undecodable> undecodable_;     // by channel
+  std::map<std::string, std::string> configurations_;                // by service
+  std::map<std::string, std::array<std::string, 3>> jobs_of_scans_;  // by scan: name, text, refusal
+  std::int64_t newest_pose_ = 0;                                     // us
+  std::map<std::string, Undecodable> undecodable_;                   // by channel
   std::vector<std::string> warnings_;
 };
 

@@ -8,6 +8,7 @@
 #include <map>
 #include <set>
 
+#include "common/jobs/job_file.hpp"
 #include "services/extraction/extraction_app.hpp"
 #include "services/reconstruction/reconstruction_app.hpp"
 #include "services/seam_finding/seam_finding_app.hpp"
@@ -20,6 +21,9 @@ struct Settings {
   extraction::ExtractionSettings extraction;
   reconstruction::ReconstructionSettings reconstruction;
   seam_finding::SeamFindingSettings seam_finding;
+  // Of the jobs: the cell's sections with --cell, else what the recording states.
+  Configuration jobs;
+  std::string jobs_text;
 };
 
 // The earliest stage of any of its scans.
@@ -29,8 +33,22 @@ Stage first_stage(const Recording& recording) {
   return first;
 }
 
-Settings read_settings(const Recording& recording, Stage first, const std::string& cell,
-                       std::vector<std::string>& warnings) {
+seam_finding::JobsOfScans jobs_of(const Recording& recording, const Recording* background) {
+  seam_finding::JobsOfScans all = recording.jobs_of_scans();
+  if (!background) return all;
+  const auto append = [](std::vector<std::string>& to, const std::vector<std::string>& from) {
+    to.insert(to.end(), from.begin(), from.end());
+  };
+  const seam_finding::JobsOfScans more = background->jobs_of_scans();
+  append(all.scan_id, more.scan_id);
+  append(all.name, more.name);
+  append(all.text, more.text);
+  append(all.refusal, more.refusal);
+  return all;
+}
+
+Settings read_settings(const Recording& recording, const Recording* background, Stage first,
+                       const std::string& cell, std::vector<std::string>& warnings) {
   const auto configuration_of = [&](const std::string& service) {
     if (!cell.empty()) return Configuration::from_file(cell);
     const auto text = recording.configuration(service);
@@ -50,8 +68,17 @@ Settings read_settings(const Recording& recording, Stage first, const std::strin
   if (first != Stage::kProfiles)
     settings.reconstruction = configuration_of("reconstruction")
                                   .read<reconstruction::ReconstructionSettings>("reconstruction");
-  settings.seam_finding =
-      configuration_of("seam_finding").read<seam_finding::SeamFindingSettings>("seam_finding");
+  const Configuration of_seam_finding = configuration_of("seam_finding");
+  settings.seam_finding = of_seam_finding.read<seam_finding::SeamFindingSettings>("seam_finding");
+  if (!cell.empty()) {
+    settings.jobs = Configuration::from_file(cell);
+    return settings;
+  }
+  // Whether the cell had jobs stands in its own section, not in what held for single scans.
+  if (of_seam_finding.has("jobs"))
+    settings.jobs_text = write_settings("jobs", of_seam_finding.read<JobsSettings>("jobs"));
+  settings.jobs_text += write_settings("jobs_of_scans", jobs_of(recording, background));
+  settings.jobs = Configuration::from_text(settings.jobs_text, recording.name());
   return settings;
 }
 
@@ -61,7 +88,8 @@ class Pipeline {
   Pipeline(const Settings& settings, const Instance& instance)
       : extraction_(*bus_, settings.extraction, instance),
         reconstruction_(*bus_, settings.reconstruction, instance),
-        seam_finding_(*bus_, settings.seam_finding, instance) {
+        seam_finding_(*bus_, settings.seam_finding, instance,
+                      seam_finding::JobBook(settings.jobs, settings.seam_finding)) {
     bus_->subscribe<seam_t>(instance.sensor_channel("SEAM"), Queue::measurements(),
                             [this](const seam_t& seam) { take_seam(seam); });
   }
@@ -178,7 +206,8 @@ ReplayResult replay_recordings(const std::vector<std::string>& paths,
   const Stage first = background
                           ? std::min(first_stage(recording), first_stage(background->recording))
                           : first_stage(recording);
-  const Settings settings = read_settings(recording, first, options.cell, result.warnings);
+  const Settings settings = read_settings(recording, background ? &background->recording : nullptr,
+                                          first, options.cell, result.warnings);
   Pipeline pipeline(settings, Instance{recording.sensor(), recording.robot(), ""});
   options.on_bus(pipeline.bus(), recording.sensor());
 
@@ -253,10 +282,10 @@ std::string replay_settings(const std::vector<std::string>& paths, const ReplayO
   recording.require_channels();
   std::vector<std::string> warnings;
   const Settings settings =
-      read_settings(recording, first_stage(recording), options.cell, warnings);
+      read_settings(recording, nullptr, first_stage(recording), options.cell, warnings);
   return write_settings("extraction", settings.extraction) +
          write_settings("reconstruction", settings.reconstruction) +
-         write_settings("seam_finding", settings.seam_finding);
+         write_settings("seam_finding", settings.seam_finding) + settings.jobs_text;
 }
 
 }  // namespace arcstart::command_line

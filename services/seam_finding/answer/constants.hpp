@@ -2,6 +2,7 @@
 // scripts/bench seam judges the number.
 #pragma once
 
+#include "common/geometry.hpp"
 #include "services/seam_finding/cloud/constants.hpp"
 
 namespace arcstart::seam_finding {
@@ -14,6 +15,9 @@ struct AnswerConstants {
   double straight = 0.5;
   // Of the open angle, between the torch and a plate, at least - none known.
   double least_torch_share = 0.1;
+  // rad; between seam and search direction, beyond which a job's word of near and far tells too
+  // little: 60 deg, where a metre along the seam is half a metre along the search.
+  double across_search = 60 * kDegree;
   // mm; from the seam, where a plate is straight again - bench.
   double straight_from = 4;
   // mm; a bead lies so near the seam, and stands so far before both plates - bench.

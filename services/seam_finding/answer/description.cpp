@@ -4,7 +4,6 @@
 #include <cmath>
 #include <utility>
 
-#include "common/geometry.hpp"
 #include "services/seam_finding/answer/constants.hpp"
 #include "services/seam_finding/answer/seam_measurements.hpp"
 #include "services/seam_finding/answer/torch.hpp"
@@ -126,9 +125,8 @@ SeamResult describe(Joint joint, Findings findings, const SeamFindingSettings& s
   result.polyline = polyline_through(result.stations, result.start, result.end, kAnswer.straight);
   const double origin = joint.line.along(result.start);
   for (SeamMeasurement& place : result.stations) place.along -= origin;
-  result.torch = torch_at(result.start, result.direction, torch_faces(joint),
-                          {in_one_plane(joint) ? 0 : settings.torch_work_angle_deg * kDegree,
-                           settings.torch_travel_angle_deg * kDegree, settings.approach_mm});
+  result.torch_faces = torch_faces(joint);
+  set_torch(settings, result);
   if (result.thickness >= 0) remark({Code::kThickness, result.thickness});
   if (result.groove_angle >= 0) remark({Code::kGroove, result.groove_angle});
   remark(remark_on_gap(result));

@@ -5,6 +5,7 @@
 #include <array>
 
 #include "services/seam_finding/model/seam.hpp"
+#include "services/seam_finding/seam_finding_settings.hpp"
 
 namespace arcstart::seam_finding {
 
@@ -19,5 +20,10 @@ struct TorchChoice {
 // joint's open angle less a tenth on either side.
 TorchPose torch_at(const Eigen::Vector3d& start, const Eigen::Vector3d& direction,
                    const std::array<Eigen::Vector3d, 2>& normals, const TorchChoice& choice);
+
+// Of a found seam, from its start, direction and torch faces. Where its orientation is taught, it
+// stands so, if from there the wire comes out of the open side of both faces, else not at all. The
+// bias moves the tip and the approach.
+void set_torch(const SeamFindingSettings& settings, SeamResult& seam);
 
 }  // namespace arcstart::seam_finding

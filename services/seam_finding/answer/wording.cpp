@@ -97,6 +97,16 @@ constexpr struct {
     {Code::kGroove, "the groove opens by {deg:.0f} deg, its gap is given at the top"},
     {Code::kNoGap, "gap not determined"},
     {Code::kGapLikeNone, "the gap cannot be told from none"},
+    {Code::kOutsideBox, "its seam lies outside the search box, by {n:.1f} mm"},
+    {Code::kAcrossSearch,
+     "the seam runs at {deg:.0f} deg to the search direction that is set: which of its ends is the "
+     "start cannot be told"},
+    {Code::kTorchThroughPlate,
+     "with the orientation that was taught the torch would come through a plate: no torch pose"},
+    {Code::kStartDeviationLarge,
+     "the start is known to {n:.2f} mm, {of:.2f} mm are allowed (end_deviation_max_mm)"},
+    {Code::kEndDeviationLarge,
+     "the end is known to {n:.2f} mm, {of:.2f} mm are allowed (end_deviation_max_mm)"},
     {Code::kFloorNearTop, "a floor is seen in the gap: it may be a line in one plate"},
 };
 

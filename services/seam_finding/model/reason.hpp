@@ -86,6 +86,13 @@ struct Reason {
     kEndLooselyBounded,
     kStartBounded,  // it may be off by so much
     kEndBounded,
+
+    // Of the job: why a seam that was found is none of its, or how its torch would stand.
+    kOutsideBox,         // number: mm outside the search box
+    kAcrossSearch,       // number: angle between the seam and the search direction that is set; rad
+    kTorchThroughPlate,  // with the orientation that was taught
+    kStartDeviationLarge,  // number, of: mm, and the most that is allowed
+    kEndDeviationLarge,
   };
 
   Code code = Code::kNone;

@@ -71,7 +71,7 @@ struct SeamResult {
   // Where found. In base, mm and rad.
   std::string joint_type;
   Eigen::Vector3d start = Eigen::Vector3d::Zero(), end = Eigen::Vector3d::Zero();
-  Eigen::Vector3d direction = Eigen::Vector3d::Zero();  // unit, along the search
+  Eigen::Vector3d direction = Eigen::Vector3d::Zero();  // unit, start to end
   std::array<Eigen::Vector3d, 2> normals = {Eigen::Vector3d::Zero(),
                                             Eigen::Vector3d::Zero()};  // out of the metal
   std::array<SeamPlate, 2> faces;  // the plates' tops; normals says the same of their planes
@@ -87,6 +87,8 @@ struct SeamResult {
   Polyline polyline;
   std::vector<SeamMeasurement> stations;  // along counts from the start
   std::optional<TorchPose> torch;
+  // Out of the metal, of the two faces between which the torch stands.
+  std::array<Eigen::Vector3d, 2> torch_faces = {Eigen::Vector3d::Zero(), Eigen::Vector3d::Zero()};
   std::array<std::vector<int>, 2> plates;  // indices of the plates' points
 
   // Other seams, and where ambiguous all of them, best first.

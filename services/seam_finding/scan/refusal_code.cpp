@@ -52,6 +52,9 @@ constexpr struct {
     {Code::kPlateRound, seam_t::PLATE_ROUND},
     {Code::kCornerRound, seam_t::CORNER_ROUND},
     {Code::kSeamTooShort, seam_t::SEAM_TOO_SHORT},
+    // By the hundred alone: what helps is the same for all that a job may ask for.
+    {Code::kOutsideBox, seam_t::CLEAN},
+    {Code::kAcrossSearch, seam_t::CALL},
 };
 
 }  // namespace

@@ -5,6 +5,7 @@
 #include <algorithm>
 
 #include "services/seam_finding/answer/accuracy.hpp"
+#include "services/seam_finding/answer/weld_order.hpp"
 #include "services/seam_finding/background/surface_background.hpp"
 #include "services/seam_finding/find_seam.hpp"
 #include "services/seam_finding/paper/find_seam_as_in_the_paper.hpp"
@@ -145,6 +146,7 @@ bool calibration_changed(const CollectedScan& scan) {
 StoredBackground::StoredBackground(const CollectedScan& scan, const SeamFindingSettings& settings)
     : scan_id_(scan.state.scan_id), cloud_(std::make_unique<ScanCloud>(cloud_of(scan))) {
   calibration_id_ = calibration_of(scan);
+  job_ = scan.state.job;
   if (settings.background_rule == BackgroundRule::kNeighbours)
     model_ = std::make_unique<NeighbourBackground>(*cloud_, settings.background_neighbours,
                                                    settings.background_distance());
@@ -242,6 +244,7 @@ seam_t answer_workpiece(const CollectedScan& scan, const PreparedScan& prepared,
     rule(examine(cloud, prepared.thinned, result), result);
   // Behind the referee, which sees the stripes in the robot's own coordinates.
   add_robot_accuracy(settings.robot_accuracy_mm, result);
+  set_weld_order(settings, result);
   fill_in(seam, result);
   judge_clocks(seam, scan, settings);
   seam.background_points = static_cast<int>(prepared.segmentation.background.size());

@@ -46,12 +46,13 @@ class StoredBackground {
   StoredBackground(const CollectedScan& scan, const SeamFindingSettings& settings);
   std::int64_t scan_id() const { return scan_id_; }
   const std::string& calibration_id() const { return calibration_id_; }
+  const std::string& job() const { return job_; }  // that it was made for, empty for none
   const Background& model() const { return *model_; }
   std::size_t points() const { return cloud_->points.size(); }
 
  private:
   std::int64_t scan_id_;
-  std::string calibration_id_;
+  std::string calibration_id_, job_;
   std::unique_ptr<ScanCloud> cloud_;  // the model refers to it
   std::unique_ptr<Background> model_;
 };

@@ -8,6 +8,7 @@
 #include <random>
 
 #include "common/geometry.hpp"
+#include "common/jobs/job_file.hpp"
 #include "tests/command_line/recordings/replay_checks.hpp"
 
 using namespace arcstart;
@@ -241,6 +242,74 @@ TEST_CASE(
   REQUIRE(defaults.warnings.size() == 1);
   CHECK_THAT(defaults.warnings[0],
              Contains("lacks channel LASER0_SEAM_FINDING_STATUS") && Contains("--cell"));
+}
+
+TEST_CASE("a scan is answered by what its recording says of its job, and by no file") {
+  const Folder folder;
+  seam_finding::SeamFindingSettings settings;
+  const std::string of_cell =
+      write_settings("seam_finding", settings) + write_settings("jobs", JobsSettings{});
+  settings.weld_start = seam_finding::WeldStart::kFar;
+  seam_finding::JobsOfScans jobs;
+  jobs.scan_id = {std::to_string(kWorkpieceScan)};
+  jobs.name = {"bracket"};
+  jobs.text = {write_settings("seam_finding", settings) + write_settings("job", JobSettings{})};
+  jobs.refusal = {""};
+  const std::string of_job = write_settings("jobs_of_scans", jobs);
+  Events events = of_stage(Stage::kProfiles);
+  // Stated once alone, in the middle of the scan; another scan's job comes after.
+  int statuses = 0;
+  for (auto& event : events) {
+    service_status_t status;
+    scan_t state;
+    if (event.channel == "LASER0_SEAM_FINDING_STATUS") {
+      REQUIRE(decode(event.bytes, status).empty());
+      status.configuration = of_cell;
+      if (++statuses == 3) status.configuration += of_job;
+      event.bytes = encoded(status);
+    } else if (event.channel == "LASER0_SCAN") {
+      REQUIRE(decode(event.bytes, state).empty());
+      if (state.scan_id == kWorkpieceScan) state.job = "bracket";
+      event.bytes = encoded(state);
+    }
+  }
+  REQUIRE(statuses > 3);
+  const auto path = folder.save("a.lcm", events);
+  const ReplayResult result = replay_recordings({path});
+  CHECK(result.warnings.empty());
+  REQUIRE(result.seams.size() == 2);
+  const seam_t& seam = result.seams[1].seam;
+  REQUIRE(seam.verdict == seam_t::FOUND);
+  CHECK((Eigen::Map<const Eigen::Vector3d>(seam.start) - kSeamEnd).norm() < 2.5 * kStripeSpacing);
+  CHECK(seam.direction[0] < -0.99);
+  CHECK(replay_recordings({path}).seams[1].bytes == result.seams[1].bytes);
+
+  // What a live service is started with for scripts/replay says the same.
+  std::ofstream(folder / "settings.yaml") << replay_settings({path}, {});
+  ReplayOptions options;
+  options.cell = folder / "settings.yaml";
+  CHECK(replay_recordings({path}, options).seams[1].bytes == result.seams[1].bytes);
+
+  // A cell's own file of that name counts where the cell is given, and one that is not there
+  // refuses.
+  std::ofstream(folder / "cell.yaml") << of_cell;
+  options.cell = folder / "cell.yaml";
+  CHECK_THAT(replay_recordings({path}, options).seams[1].seam.reason,
+             Contains("jobs/bracket.yaml: cannot be read"));
+  std::filesystem::create_directory(folder / "jobs");
+  std::ofstream(folder / "jobs/bracket.yaml") << "{}";
+  CHECK(replay_recordings({path}, options).seams[1].seam.direction[0] > 0.99);
+
+  // Where the recording lost it, nothing is guessed.
+  for (auto& event : events) {
+    service_status_t status;
+    if (event.channel != "LASER0_SEAM_FINDING_STATUS") continue;
+    REQUIRE(decode(event.bytes, status).empty());
+    status.configuration = of_cell;
+    event.bytes = encoded(status);
+  }
+  CHECK_THAT(replay_recordings({folder.save("b.lcm", events)}).seams[1].seam.reason,
+             Contains("the recording does not tell the settings of job bracket"));
 }
 
 TEST_CASE("the channels for lcm-logplayer are those that replay begins with") {

@@ -52,7 +52,7 @@ TEST_CASE("what only ranks an alternative, or is only remarked, refuses nothing"
 
 TEST_CASE("every code has words, and no two the same") {
   std::set<std::string> all;
-  for_each_code(Code::kPlatesDoNotTouch, Code::kEndBounded, [&](Code code) {
+  for_each_code(Code::kPlatesDoNotTouch, Code::kEndDeviationLarge, [&](Code code) {
     const std::string words = in_words(Reason{code, 1, 2, 3, Code::kNotConcave});
     INFO(static_cast<int>(code));
     CHECK_FALSE(words.empty());

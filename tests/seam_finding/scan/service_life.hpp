@@ -6,6 +6,7 @@
 #include <chrono>
 #include <filesystem>
 #include <memory>
+#include <optional>
 #include <random>
 #include <string>
 #include <thread>
@@ -44,7 +45,8 @@ struct Life {
   std::vector<seam_t> seams;
   std::vector<Bus::Bytes> bytes;
 
-  explicit Life(const std::string& state_folder = "", SeamFindingSettings wanted = patient())
+  explicit Life(const std::string& state_folder = "", SeamFindingSettings wanted = patient(),
+                const std::optional<JobBook>& jobs = {})
       : settings(wanted) {
     bus->subscribe<seam_t>("LASER0_SEAM", Queue::measurements(), [this](const seam_t& seam) {
       seams.push_back(seam);
@@ -52,8 +54,8 @@ struct Life {
       seam.encode(encoded.data(), 0, static_cast<int>(encoded.size()));
       bytes.push_back(encoded);
     });
-    app = std::make_unique<SeamFindingApp>(*bus, settings,
-                                           Instance{"LASER0", "ROBOT0", state_folder});
+    app = std::make_unique<SeamFindingApp>(
+        *bus, settings, Instance{"LASER0", "ROBOT0", state_folder}, jobs.value_or(JobBook(wanted)));
   }
   void handle() {
     while (bus->handle(std::chrono::milliseconds(0))) {
