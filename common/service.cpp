@@ -10,9 +10,9 @@
 #include <filesystem>
 #include <fstream>
 
+#include "common/bus/loss_watch.hpp"
 #include "common/bus/multicast_route.hpp"
 #include "common/host/host_clock.hpp"
-#include "common/loss_watch.hpp"
 #include "common/options.hpp"
 #include "common/service_role.hpp"
 #include "common/time.hpp"

@@ -33,14 +33,16 @@ class Collector {
     return {stripes_.line.along(point), stripes_.away.dot(point - stripes_.line.point)};
   }
 
-  // Pieces of the plate in a stripe, of neighbours enough that chance put none there.
+  // Pieces of the plate in a stripe, of neighbours enough that chance put none there; fewer are
+  // enough where the stripe comes off the other plate.
   std::vector<Stretch> on(const std::vector<int>& run) const {
     std::vector<Stretch> pieces;
     for (auto begin = run.begin(), end = begin; begin != run.end(); begin = end) {
       for (++end; end != run.end() && *end == end[-1] + 1 &&
                   cloud_.origins[*end].segment == cloud_.origins[*begin].segment;)
         ++end;
-      if (end - begin >= kModel.sure_points)
+      if (end - begin >= kModel.sure_points || of_other(*begin - 1, *begin) ||
+          of_other(end[-1] + 1, *begin))
         pieces.push_back({part(cloud_.points[*begin]), part(cloud_.points[end[-1]])});
     }
     return pieces;
@@ -127,6 +129,15 @@ class Collector {
   }
 
  private:
+  // Whether a point is the other plate's, in the same segment as one on this.
+  bool of_other(int i, int on_this) const {
+    const std::vector<int>& points = stripes_.other.points;
+    return i >= 0 && i < cloud_.size() && cloud_.origins[i].stripe >= 0 &&
+           cloud_.origins[i].stripe == cloud_.origins[on_this].stripe &&
+           cloud_.origins[i].segment == cloud_.origins[on_this].segment &&
+           std::binary_search(points.begin(), points.end(), i);
+  }
+
   // How far from the seam a stripe shows the plate; mm, 0 where it does not.
   double reach_of(int stripe) const {
     if (stripe < 0 || stripe >= std::ssize(stripes_.runs) || stripes_.runs[stripe].empty())

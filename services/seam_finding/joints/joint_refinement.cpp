@@ -2,12 +2,15 @@
 
 #include <algorithm>
 #include <cmath>
+#include <iterator>
 #include <numeric>
+#include <utility>
 
 #include "services/seam_finding/cloud/outliers.hpp"
 #include "services/seam_finding/coverage/coverage.hpp"
 #include "services/seam_finding/fit/plane_fit.hpp"
 #include "services/seam_finding/joints/constants.hpp"
+#include "services/seam_finding/joints/edges/strips_at_seam.hpp"
 #include "services/seam_finding/planes/robust_plane.hpp"
 
 namespace arcstart::seam_finding {
@@ -81,6 +84,14 @@ std::vector<int> grown_along_stripes(const ScanCloud& cloud, const JointPlate& p
   return grown;
 }
 
+// Both rising.
+void add(const std::vector<int>& more, std::vector<int>& points) {
+  std::vector<int> all;
+  all.reserve(points.size() + more.size());
+  std::set_union(points.begin(), points.end(), more.begin(), more.end(), std::back_inserter(all));
+  points = std::move(all);
+}
+
 // False where the planes do not cross.
 bool set_planes(const ScanCloud& cloud, Joint& joint, const std::array<Plane, 2>& planes,
                 const Scales& scales) {
@@ -93,9 +104,13 @@ bool set_planes(const ScanCloud& cloud, Joint& joint, const std::array<Plane, 2>
   joint.line = {line->point, along ? line->direction : Eigen::Vector3d(-line->direction)};
   joint.angle = open_angle(joint);
   if (cloud.organised())
-    for (int j = 0; j < 2; ++j)
+    for (int j = 0; j < 2; ++j) {
       joint.plates[j].points =
           grown_along_stripes(cloud, joint.plates[j], joint.plates[1 - j], scales.tolerance);
+      if (joint.type != JointType::kOutsideCorner)
+        add(strips_at_seam(cloud, joint.plates[j], joint.plates[1 - j], scales.tolerance),
+            joint.plates[j].points);
+    }
   joint.coverage = find_coverage(cloud, joint.plates, joint.line, scales);
   return joint.coverage.stripes > 0;
 }

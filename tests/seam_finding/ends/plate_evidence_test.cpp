@@ -158,3 +158,39 @@ TEST_CASE("in a cloud without stripes the stations alone tell") {
       CHECK(stripe.on.empty() == stripe.absent.has_value());
     }
 }
+
+// Stripes off an upright onto a plate that a hole takes from 3.3 mm off the seam on: of the strip
+// that is left one centre was kept.
+Made with_strips(bool in_one_segment) {
+  Made made;
+  made.plate.plane = {Eigen::Vector3d::UnitZ(), 0};
+  made.other.plane = {Eigen::Vector3d::UnitY(), 0};
+  for (int k = 0; k < 20; ++k) {
+    const double x = 3.6 * k;
+    const auto add = [&](double y, double z, JointPlate& plate, int segment) {
+      plate.points.push_back(made.cloud.size());
+      made.cloud.points.emplace_back(x, y, z);
+      made.cloud.origins.push_back({k, segment, false, 0, 0.1f});
+    };
+    for (const double z : {9.0, 6.0, 3.0, 0.2}) add(0.02, z, made.other, 0);
+    add(3, 0.02, made.plate, in_one_segment ? 0 : 1);
+    for (double y = 6; k < 15 && y < 36; y += 3) add(y, 0, made.plate, in_one_segment ? 0 : 1);
+    end_stripe(made.cloud, ScanStripe::Seen::kSeen, {x, 100, 200}, {x, 0, 0});
+  }
+  return made;
+}
+
+TEST_CASE("a lone point on the plate shows it where the stripe comes off the other plate") {
+  for (const bool joined : {true, false}) {
+    int strips = 0;
+    const auto evidence = evidence_of(with_strips(joined), 0);
+    for (const StripeEvidence& stripe : evidence[1]) {
+      if (stripe.on.size() == 1 && stripe.on[0][0].away == stripe.on[0][1].away) {
+        ++strips;
+        CHECK(stripe.on[0][0].away == Approx(3));
+        CHECK_FALSE(stripe.absent);
+      }
+    }
+    CHECK(strips == (joined ? 5 : 0));
+  }
+}

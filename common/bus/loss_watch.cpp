@@ -1,4 +1,4 @@
-#include "common/loss_watch.hpp"
+#include "common/bus/loss_watch.hpp"
 
 #include <fmt/core.h>
 
