@@ -118,9 +118,11 @@ void Census::add_services(std::vector<CheckLine>& lines, const std::string& cell
   for (const auto& [speaker, speech] : speakers_) {
     auto& others = in_role[std::get<0>(speaker)];
     // One that was silent before the other began has died, and this is its successor.
-    std::erase_if(others, [&](const Speech* other) { return other->last < speech.first; });
-    if (std::none_of(others.begin(), others.end(),
-                     [&](const Speech* other) { return speech.last < other->first; }))
+    std::erase_if(others,
+                  [&speech = speech](const Speech* other) { return other->last < speech.first; });
+    if (std::none_of(others.begin(), others.end(), [&speech = speech](const Speech* other) {
+          return speech.last < other->first;
+        }))
       others.push_back(&speech);
   }
   for (const auto& [channel, those] : in_role)
