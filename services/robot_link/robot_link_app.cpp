@@ -6,7 +6,7 @@
 #include <arcstart/scan_command_t.hpp>
 
 #include "common/time.hpp"
-#include "services/robot_link/rmi/xyzwpr.hpp"
+#include "common/xyzwpr.hpp"
 
 namespace arcstart::robot_link {
 namespace {

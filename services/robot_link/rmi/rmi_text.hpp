@@ -7,7 +7,7 @@
 #include <string>
 #include <string_view>
 
-#include "services/robot_link/rmi/xyzwpr.hpp"
+#include "common/xyzwpr.hpp"
 
 namespace arcstart::robot_link {
 

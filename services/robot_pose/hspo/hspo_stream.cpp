@@ -2,7 +2,7 @@
 
 #include <fmt/core.h>
 
-#include "services/robot_pose/stream/wpr.hpp"
+#include "common/xyzwpr.hpp"
 
 namespace arcstart::robot_pose {
 

@@ -5,8 +5,8 @@
 #include <optional>
 #include <vector>
 
+#include "common/xyzwpr.hpp"
 #include "services/robot_pose/pose_source.hpp"
-#include "services/robot_pose/stream/wpr.hpp"
 
 namespace arcstart::robot_pose {
 

@@ -4,7 +4,7 @@
 #include <cmath>
 
 #include "common/geometry.hpp"
-#include "common/jobs/xyzwpr.hpp"
+#include "common/xyzwpr.hpp"
 #include "services/seam_finding/answer/constants.hpp"
 
 namespace arcstart::seam_finding {

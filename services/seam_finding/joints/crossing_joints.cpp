@@ -12,6 +12,7 @@
 #include "services/seam_finding/joints/constants.hpp"
 #include "services/seam_finding/joints/contact.hpp"
 #include "services/seam_finding/joints/edges/corner_opening.hpp"
+#include "services/seam_finding/joints/edges/seen_under.hpp"
 #include "services/seam_finding/joints/groove_faces.hpp"
 
 namespace arcstart::seam_finding {
@@ -51,37 +52,11 @@ struct Beside {
   double whole = 0;   // nine tenths of all the plate's points there are nearer; mm
 };
 
-// From the seam's line, where half of the stripes first show a plate: over a gap or a round edge.
-double begins(const ScanCloud& cloud, const Joint& joint, int plate) {
-  if (!cloud.organised()) return 0;
-  std::vector<double> nearest;
-  int stripe = -1;
-  for (const int i : joint.plates[plate].points) {
-    const double r = joint.line.distance(cloud.points[i]);
-    if (cloud.origins[i].stripe != stripe)
-      stripe = cloud.origins[i].stripe, nearest.push_back(r);
-    else
-      nearest.back() = std::min(nearest.back(), r);
-  }
-  return median(nearest);
-}
-
-// Whether a point is seen past the other plate where that has not begun yet: nearer to the line.
-bool seen_under(const ScanCloud& cloud, int point, const Plane& other, const Line& line,
-                double begin) {
-  if (!cloud.organised()) return false;  // where the plate begins is not told without stripes
-  const Eigen::Vector3d& eye = cloud.seen_from(point);
-  const double before = other.signed_distance(eye),
-               behind = -other.signed_distance(cloud.points[point]);
-  if (before <= 0 || behind <= 0) return false;
-  const Eigen::Vector3d through = eye + (cloud.points[point] - eye) * (before / (before + behind));
-  return line.distance(through) <= begin;
-}
-
 Beside look_beside(const ScanCloud& cloud, const Joint& joint, int plate, double tolerance) {
   const bool outside = joint.type == JointType::kOutsideCorner;
   const double in_under = kJoints.in_under + joint.plates[1 - plate].round;
-  const double begin = outside ? 0 : begins(cloud, joint, 1 - plate) + tolerance;
+  const double begin =
+      outside ? 0 : begins_at(cloud, joint.plates[1 - plate], joint.line) + tolerance;
   int before = 0, behind = 0;
   std::vector<double> distances, all;
   for (const int i : joint.plates[plate].points) {

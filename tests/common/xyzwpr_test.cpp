@@ -1,11 +1,10 @@
-#include "services/robot_pose/stream/wpr.hpp"
+#include "common/xyzwpr.hpp"
 
 #include <catch2/catch.hpp>
 #include <cmath>
 #include <random>
 
 using namespace arcstart;
-using namespace arcstart::robot_pose;
 
 namespace {
 
@@ -76,5 +75,21 @@ TEST_CASE("WPR: poses of the M-20iA with known angles") {
     const Eigen::Matrix3d from_angles =
         rotation_from_wpr(pose.w, pose.p, pose.r).toRotationMatrix();
     CHECK((tool - from_angles).cwiseAbs().maxCoeff() < 2e-5);
+  }
+}
+
+TEST_CASE("WPR: there and back is the same frame, also where the angles are singular") {
+  std::mt19937 random(3);
+  std::uniform_real_distribution<> angle(-180, 180), place(-2000, 2000);
+  for (int i = 0; i < 500; ++i) {
+    const double p = i % 5 == 0 ? 90 : i % 5 == 1 ? -90 : angle(random);
+    RigidTransform frame = RigidTransform::Identity();
+    frame.linear() = product(angle(random), p, angle(random));
+    frame.translation() << place(random), place(random), place(random);
+    const XyzWpr numbers = to_xyzwpr(frame);
+    CHECK(std::abs(numbers[4]) <= 90);
+    CHECK((product(numbers[3], numbers[4], numbers[5]) - frame.linear()).cwiseAbs().maxCoeff() <
+          1e-7);
+    CHECK(from_xyzwpr(numbers).isApprox(frame, 1e-7));
   }
 }
